@@ -5,10 +5,10 @@ A contract is written "arguments -> results", separated by commas. An argument i
 what the arguments of a call don't say of it, the results may choose, and ``k*k`` and ``k/2`` are computed. ``*`` stands
 for a list of arrays.
 
-``below:K`` stands for whole numbers from 0 to below a size or a number. A result is what it is called, and its shape,
-after what its numbers are: floating, of the batch arguments' dtype, and
+A result is what it is called, and its shape, after what its numbers are: floating, of the batch arguments' dtype, and
 finite where nothing is said; ``unit`` for directions of length 1, ``infinite`` where infinity is legal, ``whole``
-or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is floating, or whole.
+or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is floating, or whole. Whole numbers
+with ``below:K`` are at least 0 and less than K, a size or a number.
 """
 
 CONTRACTS = {

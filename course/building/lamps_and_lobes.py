@@ -40,11 +40,11 @@ def compile_combining(
     integrator = scene.integrator
     way = integrator.gloss_sampling
     metals = {name: one for name, one in microfacets.items() if one.k is not None}
-    if integrator.surface_offset > 0 or (way in ("automatic", "lobe") and not metals):
+    if integrator.surface_offset > 0 or not (metals or asks_for_phong(integrator)):
         return None
     divides = integrator.type != "path" and materials.refracts.any()
     exponents = np.full(len(materials.exponent), -1, np.float32)
-    for lobe in lobes if way not in ("automatic", "lobe") else ():
+    for lobe in lobes if asks_for_phong(integrator) else ():
         if type(lobe) is Lobe and lobe.kind == "phong" and not materials.refracts[lobe.material]:
             exponents[lobe.material] = lobe.parameter
     surfaces = _surfaces(scene, materials)
@@ -57,10 +57,10 @@ def compile_combining(
         found = []
     if not found and not bare:
         return None
-    # What is asked for by itself, the first of the metals asks for.
     asked_by: KeyPath = ("integrator", "gloss_sampling")
-    for name in [*metals][:1] if way in ("automatic", "lobe") else []:
-        asked_by = _roughness(name)
+    if not asks_for_phong(integrator):
+        # The first of the metals does.
+        asked_by = _roughness(next(iter(metals)))
     names = [] if way == "lamp" or not found else ["heuristic_weights"]
     if any(isinstance(light, RectangleLight) for light, _ in found):
         names.append("area_density")
@@ -69,11 +69,16 @@ def compile_combining(
     functions = bound.functions("multiple_importance", *names, asked_by=asked_by)
     lamps = tuple(_lamp(light, surface, functions) for light, surface in found)
     names = ["brdf", "visible_normal_pdf"] if found else ["brdf"]
-    lit = [
+    lit = tuple(
         replace(one, functions=bound.functions("microfacets", *names, asked_by=_roughness(name)))
         for name, one in metals.items()
-    ]
-    return Combining(lamps, exponents, POWERS.get(way), functions, tuple(lit), bare)
+    )
+    return Combining(lamps, exponents, POWERS.get(way), functions, lit, bare)
+
+
+def asks_for_phong(integrator: d.IntegratorDescription) -> bool:
+    """Whether Phong's lobes look for points on lamps; those of rough metals do so by themselves."""
+    return integrator.gloss_sampling not in ("automatic", "lobe")
 
 
 def _roughness(material: str) -> KeyPath:

@@ -8,6 +8,7 @@ import numpy as np
 
 from course import shapes
 from course.building.frame import Frame, in_range, in_reach
+from course.building.lamps_and_lobes import asks_for_phong
 from course.building.light_power import given, why_dark
 from course.building.motion import Shutter
 from course.building.sampled_points import NUMBERS, SPHERES
@@ -59,7 +60,7 @@ def compile_lights(
     A light that is sampled as a grid becomes a point light for each cell.
     """
     scene = loaded.description
-    by_lobes = scene.integrator.gloss_sampling not in ("automatic", "lobe") or any(
+    by_lobes = asks_for_phong(scene.integrator) or any(
         material.conductor is not None and material.conductor.roughness
         for material in scene.materials.values()
     )

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from course.comparing.comparison import Comparison
 
 DIFFERENT = 1
-FEW = 0.5
-"""Share of pixels that differ, below which the pictures are equal where there is noise, too, or have little."""
-
 TROUBLE = 2
 """Exit codes as those of `diff` and `cmp`, which scripts know: 0 the same, 1 different, 2 trouble."""
+
+FEW = 0.5
+"""Share of pixels that differ, below which noise is not what makes the difference: it would make nearly all differ."""
 
 
 @click.command()
@@ -104,7 +104,6 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
     verdict = "different" if different else "no difference but noise"
     most, column, row = found.largest
     share = f"{found.differing:.2%}"
-    # Noise of one's own makes nearly all pixels of two pictures differ.
     few = 0 < found.differing < FEW and not different
     hint = (
         f"; but only {share} of the pixels differ: look at these with --difference" if few else ""

@@ -32,8 +32,9 @@ def portfolio(
     """Write a page of pictures by one's own functions: before and after, errors, receipts.
 
     Files that have changed since they were checked last are checked first, as by `course status`,
-    which the time limit doesn't count, nor what is compiled. Functions that are not written have those of the course in
-    their place, or none. The page is one file without a script, and needs no network.
+    which the time limit doesn't count, nor what is compiled. Functions that are not written have
+    those of the course in their place, or none. The page is one file without a script, and needs
+    no network.
     """
     check_outputs(files=[("-o", output)])
     from course.effects import Effects

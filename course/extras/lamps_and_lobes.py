@@ -257,15 +257,12 @@ class MetalLight(DirectLight):
         """See ``DirectLight``; irradiance over pi, times pi and what metals reflect of it."""
         assert self.combining is not None
         added = values * color[:, None]
-        material = candidates.of(hits.material)
-        for one, some in hits_on(self.combining.metals, material):
-            direction, ns = (
-                candidates.of(each).take(some, axis=1) for each in (hits.direction, hits.ns)
-            )
-            to_light = repeated(candidates.to_light, added.shape[1]) * candidates.inverse_length
-            brdf = one.brdf(direction, ns, to_light.take(some, axis=1))
-            above = dot(candidates.of(hits.ng).take(some, axis=1), to_light.take(some, axis=1)) > 0
-            added[:, some] *= brdf * (np.float32(np.pi) * above)
+        way = repeated(candidates.to_light * candidates.inverse_length, added.shape[1])
+        arrays = [candidates.of(each) for each in (hits.direction, hits.ns, hits.ng)]
+        for one, some in hits_on(self.combining.metals, candidates.of(hits.material)):
+            direction, ns, ng, to_light = (each.take(some, axis=1) for each in (*arrays, way))
+            above = dot(ng, to_light) > 0
+            added[:, some] *= one.brdf(direction, ns, to_light) * (np.float32(np.pi) * above)
         if candidates.columns is not None:
             spread = np.zeros((3, hits.size), np.float32)
             spread[:, candidates.columns] = added

@@ -52,7 +52,7 @@ class Microfacets:
         """Directions (3, n) of the rays of the hits (n,), and the microfacets (3, n) that they meet."""
         direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
         u = draws(NUMBERS[0], path, depth)
-        wo = _upright(ns, -direction)
+        (wo,) = _upright(ns, -direction)
         np.maximum(wo[2], FLATTEST, out=wo[2])
         return direction, turned(ns, *self.functions.sample_visible_normal(wo, self.alpha, u))
 
@@ -68,7 +68,7 @@ class Microfacets:
         wm = way - direction
         wm /= np.sqrt(np.maximum(dot(wm, wm), np.float32(1e-20)))
         cosine = -dot(wm, direction)
-        wo, wm = _upright(ns, -direction), _upright(ns, wm)
+        wo, wm = _upright(ns, -direction, wm)
         np.maximum(wo[2], FLATTEST, out=wo[2])
         dense = self.functions.visible_normal_pdf(wo, wm, self.alpha)
         found: Floats32 = np.where(cosine > FLATTEST, dense / (4 * np.maximum(cosine, FLATTEST)), 0)
@@ -76,9 +76,8 @@ class Microfacets:
 
     def brdf(self, direction: Floats32, ns: Floats32, way: Floats32) -> Floats32:
         """A metal's BRDF (3, n) [1/sr]; arrays as in ``density``."""
-        found: Floats32 = self.functions.brdf(
-            _upright(ns, -direction), _upright(ns, way), self.alpha, self.n, self.k
-        )
+        vectors = _upright(ns, -direction, way)
+        found: Floats32 = self.functions.brdf(*vectors, self.alpha, self.n, self.k)
         return found
 
     @property
@@ -99,11 +98,11 @@ class Microfacets:
         return share
 
 
-def _upright(ns: Floats32, vectors: Floats32) -> Floats32:
-    """Vectors (3, n) in frames whose third axes are the normals (3, n)."""
+def _upright(ns: Floats32, *vectors: Floats32) -> list[Floats32]:
+    """Vectors, (3, n) each, in frames whose third axes are the normals (3, n)."""
     one, none = np.ones_like(ns[0]), np.zeros_like(ns[0])
     frame = turned(ns, one, none, none), turned(ns, none, one, none), ns
-    return np.stack([dot(axis, vectors) for axis in frame])
+    return [np.stack([dot(axis, each) for axis in frame]) for each in vectors]
 
 
 def bend(

@@ -172,16 +172,16 @@ class Recorder:
 
     def _columns(self, name: str, arguments: tuple[Any, ...]) -> Indices | None:
         """The rays that the columns of a call belong to: those of an array that was drawn or made before, or all."""
-        size = contract(name).sizes(arguments).get("N", -1)
+        size = contract(name).sizes(arguments).get("N")
+        if size is None:
+            return None
         arrays = [a for a in arguments if isinstance(a, np.ndarray)]
         columns: Indices
         for known, columns in reversed(self._known):
-            shares = (a for a in arrays if np.may_share_memory(a, known))
-            if len(columns) == size and any(True for _ in shares):
-                return columns
-            for array in shares:
+            for array in (a for a in arrays if np.may_share_memory(a, known)):
                 # Hits may be looked at some at a time.
-                if (first := _begins(array, known)) is not None and first + size <= len(columns):
+                first = 0 if len(columns) == size else _begins(array, known)
+                if first is not None and first + size <= len(columns):
                     return columns[first : first + size]
         if len(self.ids) == size:
             return self.ids

@@ -111,9 +111,8 @@ class Story:
             made = f": {WEIGHTS} returned them" if WEIGHTS in recording.asked else ""
             return f"the weights of all samples sum to 0{made}"
         if not self.color.max() > 0:
-            if self.mean.max() > 0 and RESOLVE in recording.asked:
-                return f"{RESOLVE} made {_rgb(self.color)} of samples whose weighted mean is {_rgb(self.mean)}"
-            return self._why_black()
+            resolves = self.mean.max() > 0 and RESOLVE in recording.asked
+            return self._resolved if resolves else self._why_black()
         for step in self.developed:
             if step.before.max() > SHOWN and not step.after.max() > 0:
                 return f"{step.function} made {_rgb(step.after)} of its colour, {_rgb(step.before)}"
@@ -136,8 +135,15 @@ class Story:
             dark = f"; {_ending(len(blocked), len(shadows))} at {ends}"
         other = ""
         if RESOLVE in recording.asked and not np.allclose(self.color, self.mean, OTHER, OTHER / 10):
-            other = f"; {RESOLVE} made {_rgb(self.color)} of samples whose weighted mean is {_rgb(self.mean)}"
+            other = f"; {self._resolved}"
         return f"{brighter}its light comes {_listed(parts[:MOST_NAMES])}{dark}{other}"
+
+    @property
+    def _resolved(self) -> str:
+        """What became of the samples."""
+        return (
+            f"{RESOLVE} made {_rgb(self.color)} of samples whose weighted mean is {_rgb(self.mean)}"
+        )
 
     def _why_black(self) -> str:
         """Why nothing arrives."""
@@ -145,8 +151,8 @@ class Story:
         reached = [one for one in self.segments if one.light is None and one.met != ENVIRONMENT]
         if all(one.met == ENVIRONMENT for one in camera):
             asked = Counter(call.function for one in camera for call in one.calls[-1:])
-            made = _listed([f"{name} returned 0" for name in asked]) if asked else ""
-            return f"nothing is there: its rays hit no object, and {made or 'the environment is black'}"
+            made = [f"{name} returned 0" for name in asked] or ["the environment is black"]
+            return f"nothing is there: its rays hit no object, and {_listed(made)}"
         shadows = [one for one in self.segments if one.light is not None]
         unlit = Counter((light, why) for one in reached for light, why in one.unlit.items())
         reasons = []
@@ -157,8 +163,7 @@ class Story:
             by = _counted(str(one.material) for one in reached)
             reasons.append(
                 f"{_of(len(dark), len(shadows), 'shadow ray')} {_some(len(dark), 'reaches', 'reach')} a light, but"
-                " the material reflects none"
-                f" of it ({by})"
+                f" the material reflects none of it ({by})"
             )
         words = {
             "surface": "the surface faces away from {}",

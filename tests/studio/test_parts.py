@@ -19,7 +19,7 @@ from course.render_scene import NO_COMPILER
 from course.studio.differing import Shot, coloured, deviations, share_differing
 from course.studio.engine import EngineEffects, engines_picture
 from course.studio.keys import ABOUT, sliders
-from course.studio.orbit import CLOSEST, FARTHEST, orbited, within_limits
+from course.studio.orbit import CLOSEST, FARTHEST, STEEPEST, orbited, within_limits
 from course.studio.passes import Progressive, even_tiles, picture_of
 from course.studio.prepared import PIXELS, changed, fitting, prepared, settings_of
 from tests.studio.conftest import RIGHT, SCENE, write
@@ -64,6 +64,7 @@ def test_a_camera_that_can_go_no_further_turns_back_at_once(ball: Path) -> None:
         distance = np.linalg.norm(np.array(there) - camera.look_at)
         assert np.linalg.norm(np.array(back) - there) > 0.05 * distance
         assert CLOSEST <= zoomed <= FARTHEST
+        assert abs(tilted) <= 2 * STEEPEST
     assert within_limits(camera, 7.0, 0.1, 2.0) == (7.0, 0.1, 2.0)
 
 

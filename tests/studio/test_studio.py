@@ -437,6 +437,18 @@ def test_a_file_that_lets_nobody_else_run_is_told_and_ended(studio: Studio, work
     until(lambda: mine(studio)["samples"] == DONE and not mine(studio)["trouble"])
 
 
+def test_a_camera_that_can_go_no_further_turns_back_at_once(viewer: Studio) -> None:
+    def eye() -> Any:
+        return viewer.state()["camera"]["eye"]
+
+    first = eye()
+    for _ in range(40):
+        viewer.ask("orbit", turn=0.0, tilt=0.3, zoom=1.5)
+    highest = until(lambda: eye() != first and viewer._queue.empty() and eye())
+    viewer.ask("orbit", turn=0.0, tilt=-0.3, zoom=0.8)
+    until(lambda: np.linalg.norm(np.subtract(eye(), highest)) > 1)
+
+
 def test_a_function_whose_name_is_spelt_wrongly_is_told(studio: Studio, work: Path) -> None:
     until(lambda: mine(studio)["samples"] == DONE)
     file = work / "assignments" / "soft_shadows.py"
