@@ -141,7 +141,7 @@ void main() {
   };
   const OFF = { lamp: 0, rough: 0, aperture: 0, focus: 5, shutter: 0, texels: 6, seamless: 0, sky: 0 };
   const VIEWS = {
-    home: { knobs: ["lamp", "rough", "aperture", "shutter"], names: ["One ray each", "Distributed rays"], off: ["lamp", "rough", "aperture", "shutter"] },
+    home: { knobs: ["lamp", "rough", "aperture", "shutter"], names: ["One ray each", "Distributed rays"], off: ["lamp", "rough", "aperture", "shutter"], hint: "Move a slider to 0: its effect is gone. " },
     soft_shadows: { knobs: ["lamp"], names: ["A point", "A ball"], off: ["lamp"], start: { lamp: 0.7, samples: 6 } },
     glossy: { knobs: ["rough"], names: ["A mirror", "A glossy one"], off: ["rough"] },
     thin_lens: { knobs: ["aperture", "focus"], names: ["A pinhole", "A lens"], off: ["aperture"] },
@@ -260,8 +260,8 @@ void main() {
     knob("Samples a pixel", 0, 6, 1, view.start?.samples ?? 4, (value) => (samples = 2 ** value), (value) => String(2 ** value));
     const caption = document.createElement("figcaption");
     caption.textContent =
-      `Computed here, by your graphics card or in its place. Errors: root mean square of linear radiance against ${CONVERGED} ` +
-      "samples of the right picture, at a third of the size. More samples lower the right one's; the left one keeps its bias.";
+      `${view.hint ?? ""}Computed here, by your graphics card or in its place. Errors: root mean square of linear radiance against ` +
+      `${CONVERGED} samples of the right picture, at a third of the size. More samples lower the right one's; the left one keeps its bias.`;
     figure.append(pair, knobs, caption);
     figure.hidden = false;
     draw(1);
