@@ -1,4 +1,4 @@
-"""What answers rays: the interfaces of accelerators and of the casters below them, and static triangles."""
+"""Ray queries: the interfaces of accelerators and of the casters below them, and static triangles."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ NO_HIT = 1e37
 
 @dataclass
 class QueryStats:
-    """Seconds inside the caster, or box and triangle tests of another BVH. Each thread has its own object."""
+    """Seconds inside the caster, or the tests of a student's BVH. Each thread has its own object."""
 
     seconds: float = 0.0
     box_tests: int = 0
@@ -31,7 +31,7 @@ class Intersections:
     ----------
     triangle : (N,) int32, -1 where the ray hits nothing
     u, v : (N,) float32 barycentrics: p = (1 - u - v) p0 + u p1 + v p2
-    t : (N,) float32, distance [length of the direction]
+    t : (N,) float32, distance as a multiple of the direction's length
     """
 
     triangle: Numbers
@@ -41,7 +41,7 @@ class Intersections:
 
 
 class Accelerator(Protocol):
-    """Interface of static and of moving triangles, and of other BVHs."""
+    """Interface of static and of moving triangles, and of a student's BVH."""
 
     def intersect(
         self,
@@ -61,7 +61,7 @@ class Accelerator(Protocol):
         direction : (3, N) float32, any length but 0
         stats : the seconds or the tests of the query are added to it
         time : (N,) float32 of each ray, as a share of the exposure; None if nothing moves
-        coherent : true if neighbouring rays have similar directions, which makes packets of compiled loops faster
+        coherent : true if neighbouring rays have similar directions, which compiled loops trace faster in packets
         excluded : the rays' ``Surface.excluded_objects``
         """
 
@@ -80,7 +80,7 @@ class Accelerator(Protocol):
         Parameters
         ----------
         origin, direction, stats, time : see ``intersect``
-        limit : [length of the direction]
+        limit : length of the segment, as a multiple of the direction's
         active : (N,) the rays to test, None for all; results of the others are undefined
         """
 
@@ -96,7 +96,7 @@ class Caster(Protocol):
 
 
 class StaticAccelerator:
-    """Vertices (V, 3) float32 and triangles (T, 3) int32 in a caster, which the first query makes."""
+    """Vertices (V, 3) float32 and triangles (T, 3) int32 in a caster, which is built at the first query."""
 
     def __init__(self, vertices: Floats32, triangles: Numbers, make: Callable[..., Caster]) -> None:
         self.vertices = np.ascontiguousarray(vertices, np.float32)

@@ -1,4 +1,4 @@
-"""Counters of the receipt: one set per thread, added up at the end."""
+"""Counters for the receipt, the report that comes with a picture: one set per thread, added up at the end."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -16,7 +16,7 @@ class Counters:
     rays : kind -> rays cast
     numbers : name of a dimension -> random numbers drawn
     seconds : stage -> seconds
-    embree : seconds inside Embree, or tests made by another BVH
+    embree : seconds inside Embree, or the tests of a student's BVH
     """
 
     rays: Counter[str] = field(

@@ -18,8 +18,8 @@ from course.core.vectors import dot, repeated
 
 DENSE = 0.5
 """If at least this fraction of the hits are candidates, all hits are computed. Otherwise the candidates are copied
-first. Computing all saved 2 to 5% of the time (medians, one thread, without Embree); any value from .2 to .8 works as
-well."""
+first. Computing all saved 2 to 5% of the time outside Embree (medians, one thread). Values from .2 to .8 are equally
+good."""
 
 ROUNDING = 1e-4
 """Added to a float32 sine before it is compared with a float32 cosine."""
@@ -36,7 +36,7 @@ class Candidates:
     index : (m,) int, the candidates among the hits
     columns : (k,) int, the hit of each column; None if column i is hit i
     mask : (n,) bool, true for candidates; None if every column is a candidate
-    irradiance : (k,) float32, without occlusion, in units of the light's colour; 0 for other hits
+    irradiance : (k,) float32, cosine times ``Sample.factor``: E / pi is this times the light's colour; 0 for others
     cosine : (k,) float32, between shading normal and direction to the light
     origin : (3, k) float32, of the shadow rays
     to_light : (3, k) or (3, 1) float32, not normalised
@@ -70,7 +70,7 @@ class DirectLight:
     shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light on both sides
     diffuse : (3, M) reflectance
     specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
-    sky : function that returns the environment's irradiance / pi (3, n), or None for 0; None without such a light
+    sky : function that returns the environment's irradiance / pi, (3, n) or None for 0; None if it isn't sampled
     """
 
     surface: Surface
@@ -165,8 +165,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
-        # A facet's normal and its shading normal are an angle a apart. If the facet faces away from the light, the
-        # light is at least 90 degrees - a away from the shading normal. So the cosine to the light is at most sin a.
+        # Let a be the angle between a facet's normal and its shading normal. If the facet faces away from the light,
+        # the shading normal is at least (90 degrees - a) away from it. So the cosine to the light is at most sin a.
         most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))

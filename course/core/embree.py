@@ -23,7 +23,7 @@ class EmbreeCaster:
         self._scene = EmbreeScene(robust=True)
         # Embree reads the mesh's arrays as long as the scene lives.
         self._mesh = TriangleMesh(self._scene, vertices, triangles)
-        # The first query builds the BVH, and must come from one thread.
+        # The first query builds the BVH, and must come from one thread: here is one, whose ray hits nothing.
         self._scene.run(*np.full((2, 1, 3), 4.0, np.float32), query="OCCLUDED")
 
     def nearest(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Intersections:
@@ -32,7 +32,7 @@ class EmbreeCaster:
         return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
 
     def free(self, origin: Floats32, direction: Floats32, limit: Floats32 | float) -> Mask:
-        """See ``Caster``; embreex says 0 where the ray is blocked and else -1, for negative limits too."""
+        """See ``Caster``; embreex returns 0 where the ray is blocked; elsewhere, and for negative limits, -1."""
         return np.asarray(self._run(origin, direction, limit, query="OCCLUDED") < 0)
 
     def _run(self, origin: Floats32, direction: Floats32, *limit: Any, **query: Any) -> Any:

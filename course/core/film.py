@@ -1,8 +1,8 @@
 """From samples to pixels: the filter of the module ``supersampling``, and the film with its weighted sums of radiance.
 
-Samples arrive in passes. The sums are float64, and are accumulated in a fixed order. Only the last pass can be
-partial. It is added to the picture, but not to the sums. A continued render repeats that pass in full, so its picture
-has the same bits as one that was rendered at once.
+Samples arrive in passes. The sums are float64, and are accumulated in a fixed order. If the last pass is
+partial, it is added to the picture, but not to the sums. A continued render repeats that pass in full, so its picture
+has the same bits as one that was rendered in one go.
 """
 
 from copy import deepcopy
@@ -24,7 +24,7 @@ class Reconstruction:
 
     Attributes
     ----------
-    single : true if each pixel has one sample; the pixel's colour is its radiance
+    single : true if each pixel has one sample, whose radiance is the pixel's colour
     sigma : standard deviation of the Gaussian [pixels]; None for the box filter
     """
 

@@ -20,7 +20,8 @@ def fresnel_and_cos_t(cos_i: Floats32, eta: Floats32) -> tuple[Floats32, Floats3
     squared = (1 - sin_t) * (1 + sin_t)
     total = squared <= 0
     cos_t = np.sqrt(np.maximum(squared, 0))
-    # Amplitudes of both polarisations, divided by n_to. If both cosines are 0, `total` sets the result to 1.
+    # Amplitude ratios of both polarisations; numerators and denominators are divided by n_to. If both cosines are 0,
+    # `total` sets the result to 1.
     s_sum, p_sum = eta * cos_i + cos_t, cos_i + eta * cos_t
     s = (eta * cos_i - cos_t) / np.maximum(s_sum, np.float32(1e-20))
     p = (cos_i - eta * cos_t) / np.maximum(p_sum, np.float32(1e-20))

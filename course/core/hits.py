@@ -32,7 +32,7 @@ class Hits:
     near_origin : (3, n) float32, p + offset ng, the origins of rays that leave on the incoming side
     side : (n,) float32, 1 at the front of the triangle, -1 at the back
     time : (n,) float32, share of the exposure; None if nothing moves
-    tint : (3, n) float32, colour factor of textures, 1 where there is none; None if no hit has one
+    tint : (3, n) float32, colour factor of textures, 1 at hits without a texture; None without textures
     """
 
     ray: Indices | None
@@ -77,7 +77,7 @@ class Surface:
 
     @property
     def turns_normals(self) -> bool:
-        """True if ``turn_to_viewer`` turns interpolated shading normals; not where METU's pictures are reproduced."""
+        """True if ``turn_to_viewer`` turns interpolated shading normals; a subclass may leave them as they are."""
         return True
 
     def intersect(
@@ -85,7 +85,7 @@ class Surface:
     ) -> Intersections:
         """Nearest hits of camera rays, or of bounced rays; see ``Accelerator.intersect``.
 
-        Here they are the same; ``course.extras.surface`` clips what the camera sees.
+        Here both are found alike; ``course.extras.surface`` clips camera rays.
         """
         arrays = rays.origin, rays.direction, stats, rays.time
         return self.accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
@@ -177,7 +177,7 @@ class Surface:
         return normal
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """The convex object that each ray (3, m) leaves and can't hit again; only compiled loops make use of it."""
+        """None; the surface of compiled loops returns the convex object that each ray leaves and can't hit again."""
         return None
 
 

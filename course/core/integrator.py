@@ -25,7 +25,7 @@ LARGEST_BATCH = 4 * RAYS
 
 
 Absorption = Callable[[Rays, Hits, Floats32 | None, Media | None, bool], Floats32 | None]
-"""Reduces throughput along rays. Takes rays, hits, throughput and medium at the hits, and true for camera rays."""
+"""Reduces throughput along rays. Takes rays, hits, the hits' throughput and medium, and True for camera rays."""
 
 
 class CancelledError(Exception):
@@ -81,8 +81,8 @@ class Integrator:
         Raises CancelledError soon after ``draws.cancelled()`` becomes true.
         """
         path_radiance = np.zeros((3, draws.block.size), np.float32)
-        # Glass may double the rays at each depth, so batches that outgrow the cache are split. They wait on a stack,
-        # so memory grows linearly with the depth, not as 2^depth.
+        # Glass may double the rays at each depth, so batches that outgrow the cache are split. The halves wait on a
+        # stack, so memory grows linearly with the depth, not as 2^depth.
         pile = [(0, camera_rays)]
         while pile:
             if draws.cancelled():
@@ -126,7 +126,7 @@ class Integrator:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
         ``adds_lights``, (N,) or one bool, selects the rays that add the environment's radiance if they hit nothing: all
-        of them here, and in path tracing those for which no shadow ray has asked for it.
+        of them here; in path tracing, those whose last hit hasn't sampled the environment directly.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
         coherent = depth <= self.coherent_depth

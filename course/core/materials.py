@@ -6,7 +6,7 @@ E = I cos / d^2:
     L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
 
 A dielectric transmits what it doesn't reflect. A scene may give it ambient, diffuse and specular terms, too; they
-hold for its outside. Its inside reflects by Fresnel's equations only.
+apply to hits from outside only.
 """
 
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class MaterialTable:
     refraction_index : (M,) float32, relative to the medium outside; 0 for opaque materials
     absorption : (3, M) float32 [1 / unit of the compiled scene]
     emission : (3, M) float32 [W/(m^2 sr)]
-    lamps : (M,) bool, surfaces of lights, which emit from their fronts only; None if no light has a surface
+    lamps : (M,) bool, surfaces of lights; None if no light has a surface
     outside : (M,) material around each dielectric, -1 for vacuum; None if vacuum is around all
     """
 
@@ -93,8 +93,8 @@ def blinn_phong_highlight(
     squared = dot(half, half)
     cosine = dot(half, normal)
     cosine /= np.sqrt(np.maximum(squared, np.float32(1e-12)))
-    # NumPy's exp and log are ten times faster than `power`. The clamp makes no visible difference for exponents of
-    # at least 1, whose power is negligible there, and of 0, which gives 1 everywhere. Below 1 no highlight quite ends.
+    # NumPy's exp and log are ten times faster than `power`. With exponents of at least 1 the clamped power is
+    # negligible. With 0 it is 1 everywhere. Between 0 and 1 a faint highlight stays where n . h <= 0.
     np.clip(cosine, np.float32(1e-6), 1, out=cosine)
     np.log(cosine, out=cosine)
     cosine *= exponent

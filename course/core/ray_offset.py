@@ -8,10 +8,10 @@ from the round surface, higher by
 
     h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
 
-Along an edge, h is the parabola through both ends that bends as much as the normals turn: if they lean equally to both
-sides, it is perpendicular to them, but for terms of the third order. An edge of length L on a sphere
-of radius R has k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). Hanika ("Hacking the shadow
-terminator", Ray Tracing Gems II, ch. 4) projects the point to the tangent planes instead. His point lies twice as high.
+Along an edge, h is a parabola through both ends. Its slope changes by as much as the normals turn. If the normals lean
+outwards by equal angles, it meets them at right angles, up to third-order terms. An edge of length L on a sphere of
+radius R has k = L^2 / R; at its middle h is, to leading order, the sagitta L^2 / (8 R). Hanika ("Hacking the shadow
+terminator", Ray Tracing Gems II, ch. 4) projects the point onto the tangent planes. His point lies twice as high.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 OFFSET = 2.0**-19
 """Height above a surface at which rays begin, as a fraction of the largest coordinate of its triangle.
 
-Hit points and Embree's test have an error of a few units in the last place (2^-24) of the triangle's coordinates.
+Hit points and Embree's test have an error of a few rounding errors (2^-24 of the triangle's largest coordinate).
 tests/geometry/test_surface.py measures it.
 """
 
@@ -89,8 +89,8 @@ def pull_off_edges(
     twice_area = dot(cross(e1, e2), ng)
     moved = p[:, near].astype(np.float64)
     for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):
-        # The distance is lacking * height, and height = twice the area / |edge|. The vector cross(ng, edge) points
-        # inwards and has the length |edge|.
+        # The point moves by `lacking` times the triangle's height, which is twice the area / |edge|. The vector
+        # cross(ng, edge) points inwards and has the length |edge|.
         lacking = np.maximum(least - barycentric.take(near), 0)
         moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
     p[:, near] = moved

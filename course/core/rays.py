@@ -34,7 +34,7 @@ class Rays:
     throughput : (3, n) float32, share of a ray's radiance that reaches the picture; None for 1
     path : (n,) number of the path in the block; None for one ray per path, in order
     medium : (n,) int16, material that the ray travels in, or OPEN; None if nothing absorbs, and for camera rays
-    time : (n,) float32, share of the exposure since the shutter opened; None if nothing moves
+    time : (n,) float32, time since the shutter opened, as a fraction of the exposure; None if nothing moves
     excluded : objects that the rays can't hit, see ``Surface.excluded_objects``
     start : (3, n) float32, the hit points that the rays leave, without the offset of ``origin``; None without a medium
     """
@@ -54,13 +54,13 @@ class Rays:
         return int(self.direction.shape[1])
 
     def halves(self) -> "tuple[Rays, Rays]":
-        """Two batches: the second half of the rays, then the first."""
+        """Two batches: the second half of the rays, then the first, so that a stack returns the first half first."""
         middle = self.size // 2
         rays = self if self.path is not None else replace(self, path=np.arange(self.size))
         return rays.part(slice(middle, None)), rays.part(slice(middle))
 
     def part(self, columns: slice) -> "Rays":
-        """The rays in some columns. If ``path`` is None, the part doesn't know any more which paths it has."""
+        """The rays in some columns. ``path`` must be set: in the part, None would mean the block's first paths."""
         arrays = [getattr(self, field.name) for field in fields(self)]
         # A shared origin has one column.
         whole = [array is None or array.shape[-1] != self.size for array in arrays]
@@ -70,7 +70,7 @@ class Rays:
 
 
 def join_rays(batches: Sequence[Rays]) -> Rays:
-    """Join batches: a large one costs less than several small ones. An attribute is None in all batches or in none."""
+    """Join batches: a large one costs less than several small ones. They have the same attributes."""
 
     def columns(name: str) -> Any:
         arrays = [getattr(rays, name) for rays in batches]
@@ -83,7 +83,7 @@ class Dimensions:
     """Assigns dimensions of the sampler to names, such as "lens" or the name of a light.
 
     Samplers stratify pairs of dimensions (0, 1), (2, 3), ..., so every name begins a new pair. A path draws ``of_path``
-    once and ``of_bounce`` at each depth. Both hold pairs (name, number of dimensions), where the number may be 0.
+    once and ``of_bounce`` at each depth. Both are sequences of (name, number of dimensions); the number may be 0.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class Dimensions:
         self._stride = self._assign(of_bounce, begin) - begin
 
     def _assign(self, wanted: Iterable[tuple[str, int]], dimension: int) -> int:
-        """Assign dimensions from the given one on; returns the next one."""
+        """Assign dimensions from the given one on; return the next free one."""
         for name, width in wanted:
             if width:
                 self.width[name], self._first[name] = width, dimension
@@ -156,7 +156,7 @@ class Draws:
         which: Indices | None = None,
         cost: float | None = None,
     ) -> None:
-        """Count n rays of a kind.
+        """Count n rays of a kind, and add what they cost to their paths.
 
         Parameters
         ----------

@@ -15,7 +15,7 @@ from course.core.tiles import Work, passes
 from course.core.tracer import Tracer
 
 Progress = Callable[[float, bool], None]
-"""Called with the fraction of the render that is done, in [0, 1], and with true once every pixel has a sample."""
+"""Takes the fraction of the render that is done, in [0, 1], and a bool: if every pixel has a sample."""
 
 Tick = Callable[[int, int], None]
 """Called with the number of work items done, and with how many of them belong to the first pass."""
@@ -57,7 +57,7 @@ class Executor(ABC):
 
     @abstractmethod
     def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick) -> bool:
-        """Do the work, and add the passes of each tile in order; returns true if all of it was done."""
+        """Do the work, and add the passes of each tile in order; return true if all of it was done."""
 
 
 class Schedule(ABC):
@@ -65,7 +65,7 @@ class Schedule(ABC):
 
     @abstractmethod
     def render(self, run: Run, executor: Executor) -> bool:
-        """Run all rounds; returns true if the picture is complete."""
+        """Run all rounds; return true if the picture is complete."""
 
     def receipt(self) -> dict[str, Any]:
         """Entries that the schedule adds to the receipt."""
@@ -75,13 +75,13 @@ class Schedule(ABC):
 def render(
     film: AnyFilm, schedule: Schedule, executor: Executor, progress: Progress | None = None
 ) -> bool:
-    """Render a picture into a film; returns true if it is complete. ``progress`` is called from this thread."""
+    """Render a picture into a film; return true if it is complete. ``progress`` is called from this thread."""
     covered = False
 
     def run(work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         nonlocal covered
-        # The length of an iterator is unknown. A render with one ends at the deadline, so its progress is the fraction
-        # of the time limit.
+        # The length of an iterator is unknown. A render whose work comes from an iterator ends at the deadline, so its
+        # progress is the fraction of the time limit.
         pieces = first_pass = inf
         if isinstance(work, Sequence):
             pieces, first_pass = max(len(work), 1), sum(item.order == 0 for item in work)

@@ -48,7 +48,7 @@ class Block:
 class Sampler(ABC):
     """Draws numbers for the paths of a block; blocks may come in any order.
 
-    Scene files know it by its ``name``. ``extensible`` is true if n samples can be continued to 2n.
+    Scene files know it by its ``name``. ``extensible`` is true if n samples can be extended to 2n.
     """
 
     name: str
@@ -63,7 +63,7 @@ class Sampler(ABC):
         return self.draw(block, dimension, width).take(path, axis=1)
 
 
-# In quotes, so that numpy.random isn't imported with this file.
+# The result's type is in quotes, so that numpy.random isn't imported with this file.
 def generator(seed: int, dimension: int, block: Block) -> "np.random.Generator":
     """A new NumPy generator for one dimension of one block."""
     return np.random.default_rng((seed, dimension, block.part, block.first))

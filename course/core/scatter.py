@@ -45,7 +45,7 @@ class Scatter:
     mirror : (3, M) mirror reflectance, to which a dielectric's Fresnel reflectance is added
     index : (M,) refraction index, 0 for opaque materials; None if all are opaque
     gloss : jitters mirrored directions; None if nothing is glossy
-    absorbs : true if rays carry their medium
+    absorbs : true if a dielectric absorbs, so that rays carry their medium
     outside : ``MaterialTable.outside``
     cutoff : rays are dropped unless their largest throughput channel is above this
     """
@@ -76,7 +76,7 @@ class Scatter:
             return self._leaving(hits, weight, None, path, medium, depth, draws)
         boundary = self.boundary(hits, None, path, depth, draws)
         weight = weight + boundary.reflected
-        # Radiance changes by (n_t / n_i)^2, too: left out, for it cancels where a ray is outside again.
+        # Refraction also scales radiance by (n_to / n_from)^2. We leave it out: it cancels once a ray is outside again.
         through = np.repeat(boundary.refracted[None], 3, axis=0)
         if throughput is not None:
             weight, through = weight * throughput, through * throughput
@@ -93,7 +93,7 @@ class Scatter:
     def boundary(
         self, hits: Hits, which: Indices | None, path: Indices | None, depth: int, draws: Draws
     ) -> Boundary:
-        """Fresnel reflectance and refraction at the given hits (None: all); rough glass draws for the paths (m,)."""
+        """Fresnel reflectance and refraction at hits (None: all). Rough glass draws random numbers for paths (m,)."""
         assert self.index is not None
         material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
         if which is not None:
@@ -146,8 +146,8 @@ class Scatter:
     ) -> tuple[Floats32, Floats32]:
         """Origins and throughput, (3, m) each, of rays that leave hits ``which`` (m,).
 
-        The first ``near`` rays leave on the incoming side, the others on the far side. ``after`` (3, n) has the
-        throughput of all hits after the bounce.
+        The first ``near`` of these rays, a number, leave on the incoming side, the others on the far side. ``after``
+        (3, n) has the throughput of all hits after the bounce.
         """
         origin = hits.near_origin.take(which[:near], axis=1)
         if near < len(which):
@@ -188,7 +188,7 @@ class Scatter:
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Mirror directions (3, n) that point into the surface, so that they leave it; ng (3, n): geometric normals."""
+    """Reflect directions (3, n) that point into the surface, so that they point out; ng (3, n): geometric normals."""
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction

@@ -1,4 +1,4 @@
-"""The compiled scene (centred, scaled to unit size, in float32), its render settings, and the stages that it needs.
+"""The compiled scene (centred, scaled to [-1, 1], in float32), its render settings, and the stages that it needs.
 
 Stages and random numbers are planned once, before the first ray.
 """
@@ -87,7 +87,10 @@ def plan_dimensions(
 
 
 def plan_direct_light(world: World, sky: bool = False) -> DirectLight | None:
-    """Direct light; None if no light or no diffuse or specular term is there, and ``sky``, set later, is false."""
+    """Direct light; None without lights or without a material that reflects them.
+
+    ``sky`` is true if the caller adds the environment as a light later: then the result is never None.
+    """
     materials = world.materials
     if not sky and not (world.lights and materials.shaded.any()):
         return None

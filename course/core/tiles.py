@@ -21,7 +21,8 @@ PASS = 16
 
 PAGE, APART = 1024, 64
 """Lengths in float32 values. Two addresses whose distance is a multiple of PAGE map to the same set of the first-level
-cache, of 64 sets of 64 bytes. A length that differs from every multiple of PAGE by at least APART spreads rows."""
+cache, which has 64 sets of 64-byte lines. A length that differs from every multiple of PAGE by at least APART spreads
+rows over the sets."""
 
 
 class Area(Protocol):
@@ -103,7 +104,7 @@ def tile_picture(width: int, height: int, samples: int, batches: int = 1) -> lis
 
 
 def _shape(pixels: int, samples: int) -> tuple[int, int]:
-    """Width and height of a tile of at most ``pixels`` pixels, nearly square."""
+    """Width and height of a tile of at most ``pixels`` pixels; the sides differ by a factor of 4 at most."""
     widest = 1
     while widest * widest < pixels:
         widest *= 2
@@ -122,7 +123,7 @@ class Work:
     first, samples : first sample and number of samples of each pixel
     summed : true if the pass enters the film's sums
     parts : number of equal groups into which the samples of each pixel are divided; each group has a mean
-    pixels : number of pixels in the whole tile; None if this work covers the whole tile
+    pixels : if ``tile`` is a piece of a tile, number of pixels of the whole tile; else None
     """
 
     tile: Area

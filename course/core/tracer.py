@@ -16,7 +16,7 @@ from course.core.types import Floats32
 
 @dataclass(frozen=True)
 class Tracer:
-    """Renders tiles of ``smallest`` camera rays to ``batches`` batches of them. All threads share it.
+    """Renders tiles of up to ``batches`` batches of camera rays. All threads share it.
 
     ``costs(n)`` creates the costs of n new paths (``course.adaptive.costs``); None without adaptive sampling.
     """

@@ -1,6 +1,6 @@
 """All triangles of a scene as float32 tables, one row per triangle.
 
-The scene has already been moved and scaled to [-1, 1], in float64.
+The scene was moved and scaled to [-1, 1] in float64, before it was rounded to float32.
 
 Symbols: p0, p1, p2 corners; e1 = p1 - p0, e2 = p2 - p0; ng geometric normal; n0, n1, n2 corner normals;
 u, v barycentrics of p1 and p2, w = 1 - u - v.
@@ -23,7 +23,7 @@ class Triangles:
     planes : (T, 8) float32, p0, ng (unit), the offset of leaving rays, and 1 if ng is also the shading normal, else 0
     edges : (T, 8) float32, e1, e2, the largest inset, and padding: NumPy gathers rows of 32 bytes twice as fast as
         rows of 24 or 36
-    inset : (T, 3) float32, least w, u and v; points with a smaller barycentric are moved inwards
+    inset : (T, 3) float32, the smallest w, u and v at which rays begin; points beyond are moved inwards
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, where the longest of n0, n1, n2 has length 1; None if no part
         has normals
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2 of ``course.core.ray_offset``; None if no part has normals, or if

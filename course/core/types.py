@@ -1,4 +1,4 @@
-"""Array types that the whole course shares, and the type of a module's functions."""
+"""Array types that the whole course shares, and the namespace that holds the functions of a module."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -15,13 +15,13 @@ Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 Words = NDArray[np.uint32]
-"""Numbers of pixels in the picture, and words of random bits."""
+"""Indices of pixels in the picture, and words of random bits."""
 
 Numbers = NDArray[np.int32]
-"""Numbers of triangles, as Embree returns them, and of samples."""
+"""Indices of triangles, as Embree returns them, and counts of samples."""
 
 Materials = NDArray[np.uint16]
-"""Material numbers."""
+"""Indices of materials."""
 
 Media = NDArray[np.int16]
 """Material numbers of the media that rays travel in; -1 outside all media."""

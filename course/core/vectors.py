@@ -10,7 +10,7 @@ from course.core.types import Floats, Floats32
 
 def dot(a: Floats, b: Floats) -> Floats:
     """Dot product of columns, (3, N) x (3, N) -> (N,); either may be (3, 1)."""
-    # One NumPy call instead of five, for threads wait for each other between calls.
+    # One NumPy call instead of five: between calls threads wait for the interpreter's lock.
     product: Floats = np.einsum("ij,ij->j", a, b)
     return product
 
@@ -37,7 +37,7 @@ def normalise(v: Floats32) -> None:
 
 
 def repeated(values: Floats32, n: int) -> Floats32:
-    """Values (k, n) unchanged, or the single column of (k, 1) n times."""
+    """Values (k, n) unchanged, or the single column of (k, 1), repeated n times."""
     return values if values.shape[1] == n else np.repeat(values, n, axis=1)
 
 

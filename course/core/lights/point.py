@@ -47,7 +47,7 @@ _ONE = np.ones(1, np.float32)
 
 @dataclass(frozen=True)
 class DirectionalLight(Light):
-    """Irradiance [W/m^2] from one direction; ``to_light`` (3,) is the unit vector to the light."""
+    """From one direction; ``to_light`` (3,) is the unit vector to the light, ``color`` irradiance / pi [W/m^2]."""
 
     name: str
     to_light: Floats32

@@ -12,8 +12,8 @@ from course.core.vectors import dot
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
 """Lengths of shadow rays, as fractions of the distance to the light. The first is for points that belong to no
 surface. The second is for visible lights: it ends short of their own triangles. The third ends behind a point light
-on a surface, so that the surface blocks it. For a ray of 1/50 of the scene's size that meets the surface at 60 degrees,
-rounding moves the surface by 2^-16 of the ray's length; the third one allows twice that."""
+on a surface, so that the surface blocks it. For a ray of 1/50 of the scene's size, at 60 degrees to
+the surface's normal, rounding moves the hit by 2^-16 of the ray's length; the third one allows twice that."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Light(ABC):
 
     Attributes
     ----------
-    name : for receipts and error messages
+    name : unique; the key of the light's random numbers, and its name in receipts and messages
     color : (3,) float32, see ``Sample.factor``; the BRDF's division by pi is included here
     width : number of random numbers per sample, 0 for lights without extent
     velocity : (3,) float32, displacement while the shutter is open; None at rest

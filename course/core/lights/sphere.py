@@ -18,7 +18,7 @@ from course.core.vectors import dot
 
 @dataclass(frozen=True)
 class SphereLight(Light):
-    """A sphere, sampled uniformly by area or by volume.
+    """A sphere. Its points are uniform on the sphere, in the ball, or on a disk that faces the shading point.
 
     Attributes
     ----------
@@ -65,8 +65,8 @@ class SphereLight(Light):
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Drawn on a sphere around the origin, a point is its own normal. Around a distant centre, rounding could move
-        # it by more than the radius. With x the point, c the centre, d the distance and r the radius,
+        # Drawn on a sphere around the origin, a point is r times its normal. Around a distant centre, rounding could
+        # move it by more than the radius. With x the point, c the centre, d the distance and r the radius,
         # cos' = -(x - c) . to_light / (r d).
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
