@@ -77,6 +77,8 @@ class Contract:
                 known["*"] = len(value)
             elif isinstance(value, (int, np.integer)):
                 known[name] = int(value)
+            elif isinstance(value, tuple) and value:
+                known[name] = len(value[-1])
             elif shape:
                 for word, size in zip(shape.split(), np.shape(value), strict=False):
                     # A single column stands for as many as there are.

@@ -8,7 +8,8 @@ for a list of arrays.
 A result is what it is called, and its shape, after what its numbers are: floating, of the batch arguments' dtype, and
 finite where nothing is said; ``unit`` for directions of length 1, ``infinite`` where infinity is legal, ``whole``
 or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is floating, or whole. Whole numbers
-with ``below:K`` are at least 0 and less than K, a size or a number.
+with ``below:K`` are at least 0 and less than K, a size or a number; an argument that is several arrays stands for the
+length of the last.
 """
 
 CONTRACTS = {
@@ -71,7 +72,7 @@ CONTRACTS = {
     "textures.triangle_uv": "barycentric: 3 N, uv0: 2 N, uv1: 2 N, uv2: 2 N -> u and v: 2 N",
     "textures.texture_lookup": "image: H W 3, uv: 2 N -> the colours: 3 N",
     "bounding_volumes.build": "lo: 3 T, hi: 3 T, leaf_size"
-    " -> lo: 3 M, hi: 3 M, first: whole M, count: whole M, order: whole T",
+    " -> lo: 3 M, hi: 3 M, first: whole M, count: whole M, order: whole T below:T",
     "bounding_volumes.traverse": "hierarchy, p0: 3 T, p1: 3 T, p2: 3 T, origins: 3 N, directions: 3 N"
     " -> triangle: int32 N, t: infinite N, box_tests: whole N, triangle_tests: whole N",
     "quasi_monte_carlo.halton": "i: N, dims -> the points: float32 dims N",
@@ -82,8 +83,8 @@ CONTRACTS = {
     "blue_noise.dithered_points": "points: 2 s, masks: 2 H W, x: N, y: N -> the points: 2 N s",
     "many_lights.power_choice": "power: L, u: N -> lamp: whole N below:L, probability: N",
     "many_lights.light_tree": "lo: 3 L, hi: 3 L, axis: 3 L, angle: L, power: L"
-    " -> lo: 3 M, hi: 3 M, axis: unit 3 M, angle: M, power: M, order: whole L",
-    "many_lights.tree_choice": "tree, p: 3 N, n: 3 N, u: N -> lamp: whole N, probability: N",
+    " -> lo: 3 M, hi: 3 M, axis: unit 3 M, angle: M, power: M, order: whole L below:L",
+    "many_lights.tree_choice": "tree, p: 3 N, n: 3 N, u: N -> lamp: whole N below:tree, probability: N",
     "path_tracing.diffuse_bounce": "normal: 3 N, u: 2 N -> the directions: unit 3 N",
     "path_tracing.throughput": "beta: 3 N, albedo: 3 N -> the throughput: 3 N",
     "path_tracing.russian_roulette": "beta: 3 N, u: N -> survives: bool N, the throughput: 3 N",
