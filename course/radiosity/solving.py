@@ -37,7 +37,7 @@ BATCH = 64
 
 APART, ROUNDING = 1.01, 1e-4
 """Changes of radiosity that grow by more than APART from one iteration to the next are a mistake, if they are more than
-ROUNDING of the largest radiosity."""
+ROUNDING of the largest radiosity; so is more light than there can be by APART, or less than none by ROUNDING."""
 
 Report = Callable[[float, bool], None]
 
@@ -82,18 +82,36 @@ def gathered(
     k = _even(math.sqrt(rays / (6 * patches.size)), 32, 256)
     factors = form_factors(views, make_hemicube(k, functions), 2 * patches.size)
     emission, reflectance, _ = _both_sides(patches)
-    rho = float(reflectance.max())
+    rho, share = float(reflectance.max()), max(1.0, float(factors.sum(axis=1).max()))
     radiosity = emission
     steps, left, change = 0, math.inf, math.inf
     while left > tolerance and steps < (most if most is not None else steps + 1):
         after = functions.gather(radiosity, emission, reflectance, factors)
         change, last = float(np.abs(after - radiosity).max()), change
+        largest = float(after.max())
+        least = np.unravel_index(int((after - emission).argmin()), after.shape)
+        # Every patch has what it emits, and reflects at most rho of the brightest light around it.
+        most_light = float(emission.max()) + APART * share * rho * float(radiosity.max())
+        wrong = ""
+        if after[least] - emission[least] < -ROUNDING * float(np.abs(after).max()):
+            wrong = (
+                f"returned a radiosity of {after[least]:g} W/m^2 in iteration {steps + 1} for a patch that emits "
+                f"{emission[least]:g}: expected no less than that"
+            )
+        elif largest > most_light:
+            wrong = (
+                f"returned a radiosity of {largest:g} W/m^2 in iteration {steps + 1}: expected at most {most_light:g},"
+                " for no patch reflects more light than comes to it"
+            )
         # Where no patch lets out more than it gets, changes become smaller; rounding is left out.
-        if change > APART * last and change > ROUNDING * float(np.abs(after).max()):
+        elif change > APART * last and change > ROUNDING * largest:
+            wrong = (
+                f"changed a radiosity by {change:g} W/m^2 in iteration {steps + 1}, after {last:g} in the one before: "
+                f"expected at most {rho:g} times that, or it would never end"
+            )
+        if wrong:
             raise FunctionError(
-                f"radiosity.gather changed a radiosity by {change:g} W/m^2 in iteration {steps + 1}, "
-                f"after {last:g} in the one before: expected at most {rho:g} times that, or it would never end",
-                "radiosity.gather",
+                f"radiosity.gather {wrong}; `course check radiosity` says more", "radiosity.gather"
             )
         radiosity, steps = after, steps + 1
         lit = radiosity.max(axis=0)

@@ -1,6 +1,7 @@
 """Radiosities against closed forms: parallel plates, a sphere's inside, and the bound of what is left."""
 
 import math
+from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
@@ -290,7 +291,7 @@ class _Endless(Functions):
 @pytest.mark.parametrize(
     ("method", "told"),
     [
-        ("gather", r"gather changed a radiosity by .* after "),
+        ("gather", r"gather returned a radiosity of .* W/m\^2 in iteration 1: expected at most "),
         ("shoot", "left the shooter's unshot"),
     ],
 )
@@ -303,3 +304,32 @@ def test_what_would_never_end_is_told(
         FunctionError, match=rf"radiosity\.{method} {told.removeprefix(method + ' ')}"
     ):
         solve_patches(patches, endless, 1e-3, None, method)
+
+
+@pytest.mark.parametrize(
+    ("gathers", "told"),
+    [
+        (lambda b, e, r, f: -(e + r * (b @ f.T)), r"of -\d.* for a patch that emits \d"),
+        (lambda b, e, r, f: e - r * (b @ f.T), r"of -\d.* for a patch that emits 0: "),
+        (lambda b, *_: 0.5 * b, r"for a patch that emits \d.*: expected no less"),
+        (lambda b, e, *_: b + e, r"expected at most \d.*, for no patch reflects more"),
+        (lambda b, e, *_: e + 1.5 * (b - e) + 0.01 * e, r"changed a radiosity by .* never end"),
+    ],
+)
+@pytest.mark.filterwarnings("error")
+def test_light_that_there_cannot_be_ends_gathering_at_once(
+    make_scene: MakeScene, gathers: Callable[..., Floats32], told: str
+) -> None:
+    """Of negated radiosities NumPy had warned that none was left to take the mean of."""
+
+    class Wrong(Functions):
+        calls = 0
+
+        def gather(self, *arguments: Floats32) -> Floats32:
+            self.calls += 1
+            return np.asarray(gathers(*arguments), np.float32)
+
+    wrong = Wrong(Effects(PROJECT / "solutions"))
+    with pytest.raises(FunctionError, match=rf"^radiosity\.gather .*{told}.*`course check"):
+        gathered(make_patches(make_scene(**plates(0.7)), 60), wrong, 1e-3, None, rays=1_000_000)
+    assert wrong.calls < 8
