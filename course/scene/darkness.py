@@ -1,13 +1,15 @@
 """Pictures that are or are likely to be black, told before they are rendered.
 
 Where nothing shines a picture is black for certain. Else a few rays are sent from the eye, straight through the picture
-and all around. Two mistakes show in what they meet: the eye stands inside something solid, or what is seen and the
-lamps are turned away from each other. No function of a student is called, and where the rays leave any doubt nothing is
-said.
+and all around, from what they meet to the lamps, and, where light goes from wall to wall, on from there at random. If
+none finds any light, the mistake shows in what they met: the eye or the lamps stand inside something solid, something
+stands before the lamps, or what is seen and the lamps are turned away from each other. No function of a student is
+called, and where the rays leave any doubt nothing is said.
 """
 
 import math
 import warnings
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import get_args
@@ -24,7 +26,7 @@ from course.core.lights.point import DirectionalLight, PointLight
 from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sample import Light
 from course.core.lights.sphere import SphereLight
-from course.core.types import Floats32, Floats64, Mask
+from course.core.types import Floats, Floats32, Floats64, Indices, Mask
 from course.errors import CourseWarning
 from course.extras.materials import FullMaterials
 from course.extras.mesh_light import MeshLight
@@ -62,14 +64,25 @@ def why_black(scene: Scene) -> str:
     )
 
 
-GRID = 12
-"""Rays in each direction of the picture."""
+GRID, FINE = 12, 96
+"""Rays in each direction of the picture; the more where the fewer find no light."""
+
+BOUNCES = 8
+"""That are followed where light goes from wall to wall."""
+
+MOST = 64
+"""Lights and their cells of which each is looked for."""
 
 FEW = 64
 """Triangles of a lamp that are looked at."""
 
 FAR = np.float32(1e6)
 """Distance at which directional lights are placed, in the unit of the compiled scene."""
+
+NEXT_TO = 0.99
+"""Share of the way to a light up to which something shades it."""
+
+LIKELY = "the picture is likely to be black: "
 
 BESIDE = 0.3
 """Radians around the cone of a spot light, in which what lies between the rays may be lit."""
@@ -80,6 +93,10 @@ _AROUND = np.array(
 )
 AROUND = np.ascontiguousarray((_AROUND / np.linalg.norm(_AROUND, axis=1)[:, None]).T, np.float32)
 """Directions all around, to the faces, edges and corners of a cube, (3, 26)."""
+
+
+Met = Callable[[Floats32, Floats32], Hits]
+"""What rays from origins (3, n) or (3, 1) in directions (3, n) meet."""
 
 
 def warn_of_darkness(scene: Scene, path: Path, packets: bool = False) -> None:
@@ -102,29 +119,31 @@ def why_dark(scene: Scene, packets: bool = False) -> str:
     film = scene.settings
     camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)
     met = partial(_met, world, packets)
+    for grid in (GRID, FINE):
+        seen = met(*_seen(camera, film.width, film.height, grid))
+        if seen.size == 0:
+            # Between the objects around it a camera may look out at the sky.
+            if world.environment is None and _sees_nothing(scene, camera, film.width, film.height):
+                return (
+                    "the picture will be black: no object is in front of the camera, and the environment is black; "
+                    "turn camera.look_at"
+                )
+            return ""
+        if (seen.size < grid * grid and world.environment is not None) or _reached(
+            world, met, seen
+        ):
+            return ""
     around = met(camera.origin[:, None], AROUND)
-    enclosed = around.size == AROUND.shape[1] and not around.entering.any()
-    if not enclosed and world.environment is not None:
-        return ""
-    seen = met(*_seen(camera, film.width, film.height))
-    if seen.size == 0:
-        # Between the objects around it a camera may look out at the sky.
-        if world.environment is None and _sees_nothing(scene, camera, film.width, film.height):
-            return (
-                "the picture will be black: no object is in front of the camera, and the environment is black; "
-                "turn camera.look_at"
-            )
-        return ""
-    if _may_show_light(world, seen):
-        return ""
-    if enclosed and not (seen.entering.any() or _may_show_light(world, around)):
-        inside = _inside(scene, around)
-        if inside:
-            return (
-                "the picture is likely to be black: the camera stands inside "
-                f"{inside}, and no light does; move camera.eye"
-            )
-    return _turned_away(scene, seen) if world.environment is None and world.lights else ""
+    inside = _inside(scene, camera.origin[:, None], around, world.lights)
+    if inside:
+        return f"{LIKELY}the camera stands inside {inside}, and no light does; move camera.eye"
+    turned_away = _turned_away(scene, seen) if world.lights else ""
+    # Through a wide lens more is seen than by the middle of it.
+    return (
+        turned_away
+        if world.lens is not None
+        else _locked_in(scene, met) or turned_away or _hidden(world)
+    )
 
 
 def _met(world: FullWorld, packets: bool, origin: Floats32, direction: Floats32) -> Hits:
@@ -137,10 +156,10 @@ def _met(world: FullWorld, packets: bool, origin: Floats32, direction: Floats32)
     return world.surface.hits(found, direction)
 
 
-def _seen(camera: Camera, width: int, height: int) -> tuple[Floats32, Floats32]:
-    """Origins and directions of rays through the centres of GRID x GRID parts of the picture."""
-    steps = (np.arange(GRID, dtype=np.float32) + np.float32(0.5)) / GRID
-    x, y = np.repeat(steps, GRID) * np.float32(width), np.tile(steps, GRID) * np.float32(height)
+def _seen(camera: Camera, width: int, height: int, grid: int) -> tuple[Floats32, Floats32]:
+    """Origins and directions of rays through the centres of grid x grid parts of the picture."""
+    steps = (np.arange(grid, dtype=np.float32) + np.float32(0.5)) / grid
+    x, y = np.repeat(steps, grid) * np.float32(width), np.tile(steps, grid) * np.float32(height)
     return camera.rays(x.astype(np.float32), y.astype(np.float32), None, None)
 
 
@@ -161,6 +180,67 @@ def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool
     return True
 
 
+def _reached(world: FullWorld, met: Met, hits: Hits) -> bool:
+    """True if light may come to any of the hits, straight from a light or, in path tracing, over other surfaces."""
+    rng = np.random.default_rng(0)
+    for _ in range(1 if world.paths is None else BOUNCES):
+        if _may_show_light(world, hits) or len(world.lights) > MOST:
+            return True
+        shaded = np.flatnonzero(world.materials.shaded.take(hits.material))
+        origin, ng = (x.take(shaded, axis=1) for x in (hits.near_origin, hits.ng))
+        if not len(shaded):
+            return False
+        if any(_lit(world, met, light, hits, shaded, rng) for light in world.lights):
+            return True
+        if world.paths is not None and _emitter_seen(world, met, origin, rng):
+            return True
+        hits = met(origin, _unit(ng + _unit(rng.standard_normal(ng.shape))))
+        if hits.size < len(shaded) and world.sky is not None:
+            return True
+        if not hits.size:
+            return False
+    return False
+
+
+def _unit(x: Floats) -> Floats32:
+    """Vectors (3, n) of length 1; those of length 0 stay so."""
+    unit: Floats32 = (x / np.maximum(np.linalg.norm(x, axis=0), 1e-30)).astype(np.float32)
+    return unit
+
+
+def _lit(
+    world: FullWorld, met: Met, light: Light, hits: Hits, shaded: Indices, rng: np.random.Generator
+) -> bool:
+    """True if any of the hits ``shaded`` may see some point of a light."""
+    p = hits.p.take(shaded, axis=1)
+    which = shaded[_shines_at(light, p) & _faced(light, p, hits.ns.take(shaded, axis=1))]
+    points = _points(light)
+    shares = rng.dirichlet(np.full(points.shape[1], 0.2), len(which)).T
+    return _sees(world, met, hits.near_origin.take(which, axis=1), points @ shares)
+
+
+def _emitter_seen(world: FullWorld, met: Met, origin: Floats32, rng: np.random.Generator) -> bool:
+    """True if from any origin (3, n) a triangle is seen that emits, be it a light or not."""
+    triangles = world.surface.triangles
+    emitting = np.flatnonzero((world.materials.emission.max(axis=0) > 0).take(triangles.material))
+    if not len(emitting):
+        return False
+    chosen = rng.choice(emitting, origin.shape[1])
+    edges = triangles.edges[chosen].T
+    return _sees(world, met, origin, triangles.planes[chosen, :3].T + (edges[:3] + edges[3:6]) / 3)
+
+
+def _sees(world: FullWorld, met: Met, origin: Floats32, points: Floats64) -> bool:
+    """True if nothing stands between any of n origins and its point, (3, n) each, but what emits or is next to it."""
+    way = points - origin
+    far = np.linalg.norm(way, axis=0)
+    which = np.flatnonzero(far)
+    hits = met(origin.take(which, axis=1), _unit(way.take(which, axis=1)))
+    near = far[which] if hits.ray is None else far[which[hits.ray]]
+    emits = (world.materials.emission.max(axis=0) > 0).take(hits.material)
+    return hits.size < len(which) or bool((emits | (hits.t > NEXT_TO * near)).any())
+
+
 def _may_show_light(world: FullWorld, hits: Hits) -> bool:
     """True if any of the hits emits light, or mirrors or refracts that of other places."""
     m = world.materials
@@ -169,24 +249,53 @@ def _may_show_light(world: FullWorld, hits: Hits) -> bool:
     return bool(shows.take(hits.material).any())
 
 
-def _inside(scene: Scene, hits: Hits) -> str:
-    """The objects around the eye whose material is met, in whose box no light is; empty if one may be."""
-    loaded, frame = scene.loaded, scene.compiled.frame
-    names = list(loaded.description.materials)
-    met = {names[number] for number in np.unique(hits.material) if number < len(names)}
-    eye = np.array(loaded.description.camera.eye)
+def _inside(scene: Scene, place: Floats32, around: Hits, lights: Sequence[Light] = ()) -> str:
+    """The objects around a place (3, 1) whose material is met on all sides; empty if a light is in the box of one."""
+    names = list(scene.loaded.description.materials)
+    met = {names[number] for number in np.unique(around.material) if number < len(names)}
     found = []
-    for number, thing in enumerate(loaded.description.objects):
-        low, high = scene.compiled.bounds[number]
-        if thing.material not in met or not ((low <= eye) & (eye <= high)).all():
+    for number, thing in enumerate(scene.loaded.description.objects):
+        low, high = scene.compiled.frame.position(scene.compiled.bounds[number])[:, :, None]
+
+        def holds(points: Floats32, low: Floats64 = low, high: Floats64 = high) -> bool:
+            return bool(((low <= points) & (points <= high)).all(axis=0).any())
+
+        if thing.material not in met or not holds(place):
             continue
-        low, high = (frame.position(corner)[:, None] for corner in (low, high))
-        for light in scene.compiled.world.lights:
-            points = _points(light)
-            if ((low <= points) & (points <= high)).all(axis=0).any():
-                return ""
+        if any(holds(_points(light)) for light in lights):
+            return ""
         found.append(f"{thing.name or thing.__struct_config__.tag} (objects.{number})")
-    return " and ".join(found)
+    return " and ".join(found) if around.size == AROUND.shape[1] else ""
+
+
+def _locked_in(scene: Scene, met: Met) -> str:
+    """Which light is inside something; empty if none is."""
+    for light in scene.compiled.world.lights:
+        points = _points(light)
+        middle = points.mean(axis=1, keepdims=True)
+        # From outside a lamp that is a surface itself.
+        beyond = 1.01 * np.linalg.norm(points - middle, axis=0).max() * AROUND
+        around = met((middle + beyond).astype(np.float32), AROUND)
+        if inside := _inside(scene, middle, around):
+            return (
+                f"{LIKELY}{light.name} is inside {inside}, which lets no light out; move the light"
+            )
+    return ""
+
+
+def _hidden(world: FullWorld) -> str:
+    """Why no light comes to what is seen, though some of it is turned to the lights, if there are any."""
+    if not world.lights and world.paths is None:
+        if world.environment is not None:
+            return (
+                f"{LIKELY}the environment lights no surface; set environment.lights, or add a light"
+            )
+        return (
+            f"{LIKELY}what emits light lights nothing else: add {{type: object, object: its name}} to lights,"
+            " or set integrator.type to path"
+        )
+    names = ", ".join([light.name for light in world.lights][:3]) or "what emits light"
+    return f"{LIKELY}all that is seen lies in shadow: something stands before {names}"
 
 
 def _points(light: Light) -> Floats32:
@@ -234,34 +343,27 @@ def _shines_at(light: Light, points: Floats32) -> Mask:
     return np.asarray((np.tensordot(light.normal, _ways(light, points), 1) < 0).any(axis=0))
 
 
-def _faced(light: Light, hits: Hits) -> Mask:
-    """(n,) which hits look towards a light."""
-    return np.asarray(((_ways(light, hits.p) * hits.ns[:, None]).sum(axis=0) > 0).any(axis=0))
+def _faced(light: Light, points: Floats32, normals: Floats32) -> Mask:
+    """(n,) which points with normals look towards a light."""
+    return np.asarray(((_ways(light, points) * normals[:, None]).sum(axis=0) > 0).any(axis=0))
 
 
 def _turned_away(scene: Scene, seen: Hits) -> str:
-    """Why none of the lights lights any of the hits; empty if one may, if only by way of other surfaces."""
+    """Why none of the lights lights any of the hits; empty if one would, were nothing in its way."""
     lights = scene.compiled.world.lights
     if not any(_shines_at(light, seen.p).any() for light in lights):
-        bounds = np.concatenate(scene.compiled.bounds)
-        box = _corners(scene.compiled.frame.position(bounds)).astype(np.float32)
-        # Between the corners of the box a cone may light something.
-        spots = any(_cone(light) for light in lights)
-        if scene.compiled.world.paths is None or not (
-            spots or any(_shines_at(light, box).any() for light in lights)
-        ):
-            names = [light.name for light in lights]
-            ways = ["turn the direction of spots"] if spots else []
-            if not all(_cone(light) for light in lights):
-                ways.append("exchange edge_u and edge_v, or set two_sided")
-            return (
-                "the picture is likely to be black: nothing that is seen is in front of a light "
-                f"({', '.join(names[:3])}{', ...' if len(names) > 3 else ''}): {', or '.join(ways)}"
-            )
-    elif scene.compiled.world.paths is None and not any(
-        (_shines_at(light, seen.p) & _faced(light, seen)).any() for light in lights
+        names = [light.name for light in lights]
+        ways = ["turn the direction of spots"] if any(_cone(light) for light in lights) else []
+        if not all(_cone(light) for light in lights):
+            ways.append("exchange edge_u and edge_v, or set two_sided")
+        return (
+            f"{LIKELY}nothing that is seen is in front of a light "
+            f"({', '.join(names[:3])}{', ...' if len(names) > 3 else ''}): {', or '.join(ways)}"
+        )
+    if not any(
+        (_shines_at(light, seen.p) & _faced(light, seen.p, seen.ns)).any() for light in lights
     ):
-        return "the picture is likely to be black: all that is seen is turned away from the lights"
+        return f"{LIKELY}all that is seen is turned away from the lights"
     return ""
 
 

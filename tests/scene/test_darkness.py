@@ -18,6 +18,7 @@ MakeScene = Callable[..., Scene]
 
 FLOOR = {"shape": "quad", "material": "grey", "width": 8, "depth": 8}
 BELOW = FLOOR | {"transform": [{"translate": [0, -2, 0]}]}
+GROUND = FLOOR | {"width": 80, "depth": 80, "transform": [{"translate": [0, -6, 0]}]}
 ABOVE = FLOOR | {"transform": [{"translate": [0, 6, 0]}]}
 BOX = {"shape": "box", "name": "wall", "material": "grey", "size": [2, 2, 2]}
 BALL = {"shape": "sphere", "material": "grey"}
@@ -31,6 +32,7 @@ DOWN = LAMP | {"edge_u": [2, 0, 0], "edge_v": [0, 0, 2]}
 UP = LAMP | {"edge_u": [0, 0, 2], "edge_v": [2, 0, 0]}
 OPEN = {"aperture_radius": 1, "focus_distance": 3}
 SKY = {"type": "constant", "radiance": 1}
+DOWN_AT = {"eye": [0, 2, 0.5], "look_at": [0, 0, 0]}
 OUTSIDE = {"eye": [0, 1, 4], "look_at": [0, 0, 0]}
 INSIDE = {"eye": [0, 0, 0.5], "look_at": [0.2, 0, 0]}
 
@@ -94,8 +96,10 @@ def test_what_is_seen_from_its_dark_side(make_scene: MakeScene, light: dict[str,
         light = {"type": "sphere", "center": [0, 5, 0], "radius": 0.5, "intensity": 9}
     parts = {"objects": [FLOOR], "camera": UNDER, "lights": [light]}
     assert "turned away from the lights" in why_dark(make_scene(**parts))
-    # Light that comes by way of another surface is a path tracer's, which may see it.
-    assert why_dark(make_scene(**parts, integrator={"type": "path"})) == ""
+    # Light that comes by way of another surface is a path tracer's.
+    path = parts | {"integrator": {"type": "path"}}
+    assert "turned away from the lights" in why_dark(make_scene(**path))
+    assert why_dark(make_scene(**path | {"objects": [FLOOR, GROUND]})) == ""
     assert why_dark(make_scene(**parts | {"camera": OUTSIDE})) == ""
 
 
@@ -105,7 +109,9 @@ def test_a_spot_light_that_shines_elsewhere_is_told(make_scene: MakeScene) -> No
     scene = make_scene(**parts)
     assert why_dark(scene).endswith("(light 0): turn the direction of spots")
     assert not render(scene, spp=4).linear.any()
-    assert why_dark(make_scene(**parts, integrator={"type": "path"})) == ""
+    path = parts | {"integrator": {"type": "path"}}
+    assert why_dark(make_scene(**path)) == why_dark(scene)
+    assert why_dark(make_scene(**path | {"objects": [FLOOR, ABOVE]})) == ""
     told = why_dark(make_scene(**parts | {"lights": [away, UP]}))
     assert told.endswith(
         "turn the direction of spots, or exchange edge_u and edge_v, or set two_sided"
@@ -131,6 +137,11 @@ def test_a_spot_light_that_shines_elsewhere_is_told(make_scene: MakeScene) -> No
         {"objects": [FLOOR], "lights": [UP], "materials": {"grey": {"emission": 0.5}}},
         {"objects": [FLOOR, ABOVE], "lights": [UP], "integrator": {"type": "path"}},
         {"objects": [BOX], "lights": [POINT | {"position": [0.5, 0.5, 0]}], "camera": INSIDE},
+        {"objects": [BELOW, BOX], "lights": [POINT | {"position": [0, 0, 0]}, POINT]},
+        {"objects": [FLOOR, HIGH | {"material": "glow"}], "integrator": {"type": "path"}}
+        | {"materials": {"grey": {}, "glow": {"emission": 3}}},
+        {"objects": [FLOOR], "environment": SKY, "integrator": {"type": "path"}},
+        {"objects": [FLOOR], "environment": SKY | {"lights": True}},
         {"objects": [BOX], "lights": [POINT, {"type": "ambient", "radiance": 1}], "camera": INSIDE},
         {"objects": [BOX], "environment": SKY, "camera": INSIDE}
         | {"materials": {"grey": {"dielectric": {}}}},
@@ -145,6 +156,89 @@ def test_where_light_may_be_seen_nothing_is_said(
     make_scene: MakeScene, parts: dict[str, Any]
 ) -> None:
     assert why_dark(make_scene(**{"camera": OUTSIDE} | parts)) == ""
+
+
+GLOW = {"grey": {}, "glow": {"emission": 3}}
+IN_BALL = BALL | {"radius": 0.9}
+CUT = [BALL | {"name": "shell", "radius": 2}, FLOOR]
+LAMPS = [
+    POINT | {"position": [0.2, 0.1, 0]},
+    SPOT | {"position": [0, 0, 0]},
+    {"type": "sphere", "center": [0.2, 0, 0], "radius": 0.3, "radiance": 3},
+    LAMP | {"corner": [-0.2, 0, -0.2], "edge_u": [0.4, 0, 0], "edge_v": [0, 0, 0.4]},
+]
+
+
+@pytest.mark.parametrize(
+    ("parts", "kinds", "reason"),
+    [
+        *(
+            (
+                {"objects": [BELOW, IN_BALL], "lights": [lamp]},
+                "both",
+                "0 is inside sphere (objects.1)",
+            )
+            for lamp in LAMPS
+        ),
+        (
+            {"objects": [BELOW, BOX], "lights": LAMPS[:2]},
+            "both",
+            "light 0 is inside wall (objects.1)",
+        ),
+        (
+            {"objects": [BELOW, IN_BALL], "lights": LAMPS[:1], "environment": SKY}
+            | {"camera": {"eye": [0, -1.5, 0.5], "look_at": [0, -2, 0]}},
+            "distribution",
+            "is inside sphere",
+        ),
+        (
+            {
+                "objects": CUT,
+                "lights": [POINT],
+                "camera": {"eye": [0, 1, 0], "look_at": [1, 0.6, 0]},
+            },
+            "both",
+            "stands inside shell (objects.0)",
+        ),
+        (
+            {
+                "objects": CUT,
+                "environment": SKY,
+                "camera": {"eye": [0, 1, 0], "look_at": [1, 0, 0]},
+            },
+            "both",
+            "stands inside shell (objects.0)",
+        ),
+        (
+            {"objects": [FLOOR, HIGH | {"material": "glow"}], "materials": GLOW},
+            "distribution",
+            "add {type: object",
+        ),
+        (
+            {"objects": [FLOOR, ABOVE | {"material": "glow"}], "materials": GLOW}
+            | {"camera": UNDER | {"look_at": [0, -1, 0]}},
+            "both",
+            "what emits light",
+        ),
+        (
+            {"objects": [FLOOR], "environment": SKY},
+            "distribution",
+            "set environment.lights",
+        ),
+        (
+            {"objects": [FLOOR, _wall(0, [1, 0, 0], [0, 3, 0])], "lights": [POINT]},
+            "both",
+            "something stands before light 0",
+        ),
+    ],
+)
+def test_light_that_is_hidden_from_all_that_is_seen(
+    make_scene: MakeScene, parts: dict[str, Any], kinds: str, reason: str
+) -> None:
+    for kind in ("distribution", "path") if kinds == "both" else (kinds,):
+        scene = make_scene(**{"camera": DOWN_AT} | parts, integrator={"type": kind})
+        assert reason in why_dark(scene)
+        assert not render(scene, spp=4).linear.any()
 
 
 @pytest.mark.parametrize("kind", ["distribution", "path"])
