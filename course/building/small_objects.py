@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.building.cutting import SmallThings
-from course.building.frame import FARTHEST, Frame, frame_of
+from course.building.frame import FARTHEST, Frame, bounds_of, frame_of
 from course.building.motion import Shutter
 from course.core.ray_offset import OFFSET
-from course.core.types import Floats64
+from course.core.types import Floats64, Indices
 from course.errors import CourseWarning
 from course.formats.yaml import description as d
 from course.formats.yaml.loading import Loaded
@@ -34,6 +34,9 @@ LARGEST = 64
 
 THIN = 4.0
 """Width of a gap from which on rays that leave one side see the other rightly, in offsets of theirs."""
+
+DIVIDED = 20_000
+"""Largest number of triangles of a mesh whose parts are looked at one by one, which takes less than reading it."""
 
 FEW = 64
 """Largest number of an object's triangles that are tested one by one; more are tested by their common box."""
@@ -189,16 +192,17 @@ def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> None:
 
 
 def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequence[Mesh]) -> None:
-    """Say which gap between flat sides of two objects, or of one, rays that leave a surface would cross; once for all.
+    """Say which gap between flat sides of two parts, or of one, rays that leave a surface would cross; once for all.
 
     Parameters
     ----------
     extents : of the objects alone
     meshes : of the objects
     """
-    sizes = (extents.boxes[:, 1] / 2 - extents.boxes[:, 0] / 2).max(axis=1)
+    owner, things, boxes = _parts(loaded, extents, meshes)
+    sizes = (boxes[:, 1] / 2 - boxes[:, 0] / 2).max(axis=1)
     some = np.argsort(-sizes, kind="stable")[:LARGEST]
-    low, high = (extents.boxes[some] - frame.center).transpose(1, 0, 2)
+    low, high = (boxes[some] - frame.center).transpose(1, 0, 2)
     # (S, S, 3): from one box to the next along each axis; negative where they reach over each other.
     way = low[None] - high[:, None]
     shared = np.maximum(low[:, None], low[None]), np.minimum(high[:, None], high[None])
@@ -219,11 +223,59 @@ def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequenc
             first, second = int(some[i]), int(some[j])
             sides = (0, 1) if i == j else (1, 0)
             if all(
-                _is_flat(meshes[number], axis, side, gap[i, j] / 64)
+                _is_flat(things[number], axis, side, gap[i, j] / 64)
                 for number, side in zip((first, second), sides, strict=True)
             ):
-                _warn_of_gap(loaded, first, second, float(gap[i, j]), float(reach[i, j]))
+                where = owner[first], owner[second]
+                _warn_of_gap(loaded, *where, i == j, float(gap[i, j]), float(reach[i, j]))
                 return
+
+
+def _parts(
+    loaded: Loaded, extents: Extents, meshes: Sequence[Mesh]
+) -> tuple[list[int], list[Mesh], Floats64]:
+    """Object, mesh and box (2, 3) of each part: still meshes of files may have several, which share no corner."""
+    owner, things, boxes = [], [], []
+    for number, (thing, mesh) in enumerate(zip(loaded.description.objects, meshes, strict=True)):
+        own = [mesh]
+        if (
+            isinstance(thing, d.MeshFile)
+            and not any(thing.motion.velocity)
+            and len(mesh.triangles) <= DIVIDED
+        ):
+            own = _divided(mesh)
+        owner += [number] * len(own)
+        things += own
+        boxes += [bounds_of(part) for part in own] if len(own) > 1 else [extents.boxes[number]]
+    return owner, things, np.reshape(boxes, (-1, 2, 3))
+
+
+def _divided(mesh: Mesh) -> list[Mesh]:
+    """The LARGEST parts of a mesh by their number of triangles; itself where it is in one piece."""
+    # A mesh file has been read, so trimesh has imported SciPy.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    triangles = mesh.triangles
+    for weld in (False, True):
+        if weld:
+            # Where normals or textures have a seam, or in STL, corners stand more than once in the file.
+            triangles = np.unique(mesh.vertices, axis=0, return_inverse=True)[1].ravel()[triangles]
+        pairs = triangles[:, :2].T.ravel(), triangles[:, 1:].T.ravel()
+        size = int(triangles.max()) + 1
+        sides = coo_array((np.ones(len(pairs[0])), pairs), shape=(size, size))
+        part = connected_components(sides, directed=False)[1][triangles[:, 0]]
+        numbers, counts = np.unique(part, return_counts=True)
+        if len(numbers) == 1:
+            return [mesh]
+    largest = numbers[np.argsort(-counts, kind="stable")[:LARGEST]]
+    return [_alone(mesh.vertices, mesh.triangles[part == number]) for number in largest]
+
+
+def _alone(vertices: Floats64, triangles: Indices) -> Mesh:
+    """Some triangles with their own vertices alone."""
+    used, place = np.unique(triangles, return_inverse=True)
+    return Mesh(vertices[used], place.reshape(triangles.shape))
 
 
 def _is_flat(mesh: Mesh, axis: int, side: int, within: float) -> bool:
@@ -233,12 +285,15 @@ def _is_flat(mesh: Mesh, axis: int, side: int, within: float) -> bool:
     return int(np.count_nonzero(np.abs(places - end) < within)) > 2
 
 
-def _warn_of_gap(loaded: Loaded, first: int, second: int, gap: float, reach: float) -> None:
-    what = (
-        f"{_named(loaded, first)} is {gap:.3g} thick"
-        if first == second
-        else f"between {_named(loaded, first)} and {_named(loaded, second)} is a gap of {gap:.3g}"
-    )
+def _warn_of_gap(
+    loaded: Loaded, first: int, second: int, thick: bool, gap: float, reach: float
+) -> None:
+    between = f"{_named(loaded, first)} and {_named(loaded, second)}"
+    if first == second:
+        between = f"two parts of {_named(loaded, first)}"
+    what = f"between {between} is a gap of {gap:.3g}"
+    if thick:
+        what = f"{_named(loaded, first)} is {gap:.3g} thick"
     warnings.warn(
         f"{loaded.document.where(('objects', second))}: {what}, and reaches {reach:.3g} away from the scene's middle,"
         f" where rays leave a surface by {OFFSET * reach:.2g}: one side's shadow on the other may be lost; make it"

@@ -2,6 +2,7 @@
 
 import re
 import warnings
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.core.ray_offset import OFFSET
 from course.errors import CourseWarning
 from course.formats.meshes.transforms import rotate
 from course.rendering.summary import summarize
@@ -197,6 +199,58 @@ def test_a_gap_that_rays_would_cross_is_told(
     assert len(said) == (width > 1e5)
     named = r'"slab"\) is 1 thick' if slab else r'\(quad\) and .*"roof"\) is a gap of 1,'
     assert all(re.search(named, each) for each in said)
+
+
+@pytest.mark.parametrize("width", [1e5, 1e6])
+@pytest.mark.parametrize("seams", [False, True])
+def test_a_gap_within_a_mesh_file_is_told(
+    make_scene: MakeScene, tmp_path: Path, width: float, seams: bool
+) -> None:
+    """A floor and a roof in one file had been one object, whose middle nobody looked at."""
+    corners = [(0, 0, 0), (0, 0, 1), (1, 0, 1), (1, 0, 0)]
+    quads = [(shift, side) for shift, side in ((0, 1), (1, 0.5))]
+    lines, faces = [], []
+    for height, side in quads:
+        for which in [(0, 1, 2), (0, 2, 3)] if seams else [(0, 1, 2, 3)]:
+            first = len(lines) + 1
+            lines += [
+                f"v {corners[k][0] * side * width} {height} {corners[k][2] * side * width}"
+                for k in which
+            ]
+            faces.append("f " + " ".join(str(first + k) for k in range(len(which))))
+    (tmp_path / "both.obj").write_text("\n".join(lines + faces) + "\n")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        make_scene(
+            materials={"grey": {}},
+            objects=[{"shape": "mesh", "file": "both.obj", "material": "grey"}],
+            camera={"eye": [0, width / 2, width], "look_at": [0, 0, 0]},
+        )
+    said = [str(each.message) for each in told]
+    assert len(said) == (width > 1e5)
+    assert all("between two parts of objects[0] (mesh) is a gap of 1," in each for each in said)
+
+
+@pytest.mark.parametrize("offsets", [4, 10, 64])
+def test_a_shadow_through_a_gap_is_narrower_by_an_offset(
+    make_scene: MakeScene, offsets: int
+) -> None:
+    """As docs/architecture.md says: shadow rays begin an offset above the floor, so they see less of the gap."""
+    gap = offsets * OFFSET
+    quad = {"shape": "quad", "width": 2, "depth": 2, "material": "grey"}
+    roof = quad | {"width": 1, "transform": [{"translate": [-0.5, gap, 0]}]}
+    eye = {"eye": [3 * gap, 0.3, 0], "look_at": [3 * gap, 0, 0], "up": [0, 0, 1]}
+    scene = make_scene(
+        camera=eye | {"vertical_fov": float(np.degrees(2 * np.arctan(10 * gap / 0.3)))},
+        film={"width": 64, "height": 16},
+        materials={"grey": {}},
+        objects=[quad, roof],
+        lights=[{"type": "directional", "direction": [1, -1, 0], "irradiance": 3}],
+    )
+    light = render(scene, spp=64).linear[:, :, 0].mean(axis=0)
+    # At the middle of the picture's height 20 gaps are 16 pixels: a pixel is 1.25 of them.
+    shadow = 1.25 * (1 - light / light.max()).sum()
+    assert shadow == pytest.approx(1 - 1 / offsets, abs=0.02)
 
 
 def test_balls_that_nearly_touch_are_no_gap(make_scene: MakeScene) -> None:
