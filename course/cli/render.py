@@ -24,6 +24,7 @@ from course.errors import CourseError, OutputError
 from course.formats.metu.suffixes import is_metu
 
 if TYPE_CHECKING:
+    from course.jobs.picture import Picture
     from course.scene.scene import Settings
 
 SAMPLERS = (
@@ -216,7 +217,7 @@ def _render_one(
             world = load_scene(file, effects=effects, described=described)
         if file != scene:
             _check_error(scene, world.settings.sampler, world.settings.samples, choices)
-        warn_of_darkness(world, scene, packets=ahead.begun)
+        told = warn_of_darkness(world, scene, packets=ahead.begun)
     if choices["time_limit"] is not None:
         choices = choices | {"since": began}
     with progress_bar(out.name) as progress:
@@ -229,6 +230,8 @@ def _render_one(
         click.echo(f"interrupted: what there is was written to {partial}", err=True)
         raise click.exceptions.Exit(options.INTERRUPTED)
     picture.save(out)
+    if not told and (black := _why_black(picture, out)):
+        click.echo(f"{out}: {black}", err=True)
     receipt = picture.receipt.to_dict()
     sampler = picture.settings.sampler
     if choices["time_limit"] is not None and choices["spp"] is None and sampler not in EXTENSIBLE:
@@ -251,6 +254,21 @@ def _render_one(
     if receipt_path is not None:
         write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")
     print_sections(str(out), receipt_sections(receipt))
+
+
+def _why_black(picture: Picture, out: Path) -> str:
+    """What is to be said of a picture in which nothing is seen; empty where something is."""
+    brightest, display = float(picture.linear.max()), picture.settings.display
+    if brightest <= 0:
+        return "every pixel is black; `course pixel` says why one is"
+    # A hundredth of white is seen, however it is encoded.
+    dim = out.suffix.lower() == ".png" and brightest < display.white / 100
+    if not dim or display.codes(picture.shown).any():
+        return ""
+    return (
+        f"every pixel shows as black, for the brightest is {brightest:.2g} and white is {display.white:g}; "
+        "raise the light, set film.white lower, or write .exr"
+    )
 
 
 def _check_error(scene: Path, sampler: str, samples: int, choices: dict[str, Any]) -> None:

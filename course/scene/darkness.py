@@ -70,6 +70,9 @@ GRID, FINE = 12, 96
 BOUNCES = 8
 """That are followed where light goes from wall to wall."""
 
+EVEN = np.array([[0.8191725], [0.6710436], [0.5497005]])
+"""Inverse powers of the root of x^4 = x + 1."""
+
 MOST = 64
 """Lights and their cells of which each is looked for."""
 
@@ -99,11 +102,15 @@ Met = Callable[[Floats32, Floats32], Hits]
 """What rays from origins (3, n) or (3, 1) in directions (3, n) meet."""
 
 
-def warn_of_darkness(scene: Scene, path: Path, packets: bool = False) -> None:
-    """Warn, once, of a picture that will be or is likely to be black; ``path`` is what the scene is called."""
+def warn_of_darkness(scene: Scene, path: Path, packets: bool = False) -> bool:
+    """Warn, once, of a picture that will be or is likely to be black; ``path`` is what the scene is called.
+
+    Returns whether it did.
+    """
     reason = why_dark(scene, packets)
     if reason:
         warnings.warn(f"{path}: {reason}", CourseWarning, stacklevel=2)
+    return bool(reason)
 
 
 def why_dark(scene: Scene, packets: bool = False) -> str:
@@ -182,19 +189,23 @@ def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool
 
 def _reached(world: FullWorld, met: Met, hits: Hits) -> bool:
     """True if light may come to any of the hits, straight from a light or, in path tracing, over other surfaces."""
-    rng = np.random.default_rng(0)
-    for _ in range(1 if world.paths is None else BOUNCES):
+    for bounce in range(1 if world.paths is None else BOUNCES):
         if _may_show_light(world, hits) or len(world.lights) > MOST:
             return True
         shaded = np.flatnonzero(world.materials.shaded.take(hits.material))
         origin, ng = (x.take(shaded, axis=1) for x in (hits.near_origin, hits.ng))
         if not len(shaded):
             return False
-        if any(_lit(world, met, light, hits, shaded, rng) for light in world.lights):
+        # Even in three dimensions (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018): importing
+        # NumPy's generators takes longer than all of this.
+        u = ((np.arange(len(shaded)) + bounce / BOUNCES) * EVEN) % 1
+        if any(_lit(world, met, light, hits, shaded, u) for light in world.lights):
             return True
-        if world.paths is not None and _emitter_seen(world, met, origin, rng):
+        if world.paths is not None and _emitter_seen(world, met, origin, u):
             return True
-        hits = met(origin, _unit(ng + _unit(rng.standard_normal(ng.shape))))
+        turn, z = 2 * np.pi * u[0], 2 * u[1] - 1
+        sine = np.sqrt(1 - z * z)
+        hits = met(origin, _unit(ng + np.stack((sine * np.cos(turn), sine * np.sin(turn), z))))
         if hits.size < len(shaded) and world.sky is not None:
             return True
         if not hits.size:
@@ -209,23 +220,25 @@ def _unit(x: Floats) -> Floats32:
 
 
 def _lit(
-    world: FullWorld, met: Met, light: Light, hits: Hits, shaded: Indices, rng: np.random.Generator
+    world: FullWorld, met: Met, light: Light, hits: Hits, shaded: Indices, u: Floats64
 ) -> bool:
-    """True if any of the hits ``shaded`` may see some point of a light."""
-    p = hits.p.take(shaded, axis=1)
-    which = shaded[_shines_at(light, p) & _faced(light, p, hits.ns.take(shaded, axis=1))]
-    points = _points(light)
-    shares = rng.dirichlet(np.full(points.shape[1], 0.2), len(which)).T
-    return _sees(world, met, hits.near_origin.take(which, axis=1), points @ shares)
+    """True if any of the hits ``shaded`` may see some point of a light, chosen by numbers u (3, n)."""
+    p, ns = (x.take(shaded, axis=1) for x in (hits.p, hits.ns))
+    which = np.flatnonzero(_shines_at(light, p) & _faced(light, p, ns))
+    points, u = _points(light), u[:, which]
+    one, other = (points[:, (points.shape[1] * v).astype(np.intp)] for v in u[:2])
+    return _sees(
+        world, met, hits.near_origin.take(shaded[which], axis=1), one + u[2] * (other - one)
+    )
 
 
-def _emitter_seen(world: FullWorld, met: Met, origin: Floats32, rng: np.random.Generator) -> bool:
+def _emitter_seen(world: FullWorld, met: Met, origin: Floats32, u: Floats64) -> bool:
     """True if from any origin (3, n) a triangle is seen that emits, be it a light or not."""
     triangles = world.surface.triangles
     emitting = np.flatnonzero((world.materials.emission.max(axis=0) > 0).take(triangles.material))
     if not len(emitting):
         return False
-    chosen = rng.choice(emitting, origin.shape[1])
+    chosen = emitting[(len(emitting) * u[0]).astype(np.intp)]
     edges = triangles.edges[chosen].T
     return _sees(world, met, origin, triangles.planes[chosen, :3].T + (edges[:3] + edges[3:6]) / 3)
 

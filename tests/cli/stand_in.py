@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from course.formats.pictures.display import Display
 from course.formats.pictures.files import save
 
 RECEIPT: dict[str, Any] = {
@@ -40,11 +41,17 @@ class Picture:
     interrupted: bool = False
     complete: bool = True
     receipt: Receipt = field(default_factory=Receipt)
-    settings: Any = field(default_factory=lambda: SimpleNamespace(sampler="sobol"))
+    settings: Any = field(
+        default_factory=lambda: SimpleNamespace(sampler="sobol", display=Display())
+    )
     linear: Any = field(default_factory=lambda: np.full((3, 4, 3), 0.5, np.float32))
 
+    @property
+    def shown(self) -> Any:
+        return np.moveaxis(self.linear, -1, 0)
+
     def save(self, path: Path) -> None:
-        save(path, np.moveaxis(self.linear, -1, 0))
+        save(path, self.shown)
 
 
 @dataclass

@@ -4,6 +4,7 @@ import errno
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from course.errors import SceneError
@@ -148,6 +149,24 @@ def test_a_black_picture_is_rendered_with_one_line_that_says_why(
     assert result.exit_code == 0
     assert result.stderr == "warning: box.yaml: the picture will be black: there are no lights\n"
     assert files(tmp_path) == {"box.png"}
+
+
+@pytest.mark.parametrize(
+    ("radiance", "told"),
+    [
+        (0.0, "every pixel is black; `course pixel`"),
+        (1e-5, "the brightest is 1e-05 and white is 1;"),
+    ],
+)
+def test_a_picture_in_which_nothing_is_seen_is_told(
+    run: Run, engine: Engine, radiance: float, told: str
+) -> None:
+    engine.picture.linear = np.full((3, 4, 3), radiance, np.float32)
+    assert told in run("render", "box.yaml").stderr
+    assert bool(run("render", "box.yaml", "-o", "box.exr").stderr) == (radiance == 0)
+    # A code of 1 is seen.
+    engine.picture.linear[1, 1] = 4e-4
+    assert not run("render", "box.yaml").stderr
 
 
 def test_a_defect_is_not_taken_for_a_mistake_of_the_user(run: Run, engine: Engine) -> None:
