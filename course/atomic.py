@@ -102,7 +102,9 @@ def _reserve(path: Path, target: Path) -> Path:
         temporary.touch(exist_ok=False)
     except OSError as error:
         if not folder.exists():
-            trouble = f"there is no folder {path.parent}: make it first"
+            trouble = (
+                f"there is no folder {folder if path.is_symlink() else path.parent}: make it first"
+            )
         elif not folder.is_dir():
             trouble = f"{path.parent} is not a folder"
         else:

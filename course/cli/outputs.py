@@ -2,16 +2,22 @@
 
 The rule for all commands: a file goes into a folder that is there, for a folder that isn't is most likely a slip of the
 pen. A folder is made only where a command is asked to fill one, as by `demo --out` or `bench --plots`. No two outputs
-are one file, and none is the file that is read.
+are one file, and none is a file that is read.
 """
+
+from __future__ import annotations
 
 import os
 from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from course.atomic import check_writable
 from course.errors import OutputError
+
+if TYPE_CHECKING:
+    from course.formats.yaml.loading import Loaded
 
 Named = tuple[str, Path | None]
 """The option for an output, such as -o, and its path; None where it isn't asked for."""
@@ -60,6 +66,15 @@ def check_distinct(outputs: Sequence[Named], source: Path | None = None) -> None
                 f"{name} {path} and {other} {twin} are one file: the second would replace the first;"
                 " give each a name of its own"
             )
+
+
+def check_spared(outputs: Sequence[Named], loaded: Loaded) -> None:
+    """Raise OutputError where an output is a file that a scene, which has been read, names: a mesh or a picture."""
+    # A command that writes one scene's pictures has read it with this module.
+    from course.formats.yaml.named_files import named_files
+
+    for name in named_files(loaded.description):
+        check_distinct(outputs, loaded.path.parent / name)
 
 
 def is_same_file(a: Path, b: Path) -> bool:

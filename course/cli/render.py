@@ -15,7 +15,7 @@ import click
 from course.atomic import write_text
 from course.cli import options
 from course.cli.metu import check_camera, converted, told_of
-from course.cli.outputs import check_outputs
+from course.cli.outputs import check_outputs, check_spared
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
 from course.cli.watching import run_again_and_again, times
@@ -215,6 +215,8 @@ def _render_one(
     with closing(ahead):
         with told_of(scene, file), progress_bar(f"reading {scene.name}"):
             world = load_scene(file, effects=effects, described=described)
+        outputs = [("-o", out), ("--heat-map", heat_map), ("--receipt", receipt_path)]
+        check_spared(outputs, world.loaded)
         if file != scene:
             _check_error(scene, world.settings.sampler, world.settings.samples, choices)
         told = warn_of_darkness(world, scene, packets=ahead.begun)

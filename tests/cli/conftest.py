@@ -26,6 +26,7 @@ def engine(monkeypatch: pytest.MonkeyPatch) -> Engine:
     monkeypatch.setitem(vars(course), "render", stand_in.render)
     monkeypatch.setattr("course.rendering.summary.summarize", lambda scene: scene.summary())
     monkeypatch.setattr("course.scene.darkness.why_dark", lambda scene, *_: scene.why_dark)
+    monkeypatch.setattr("course.cli.render.check_spared", lambda *_: None)
     return stand_in
 
 

@@ -60,6 +60,7 @@ class Scene:
 
     title: str = "A <box> & a ball"
     why_dark: str = ""
+    loaded: Any = None
 
     def summary(self) -> dict[str, dict[str, object]]:
         return {

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from course.cli.outputs import check_outputs
 from course.errors import OutputError
@@ -108,3 +109,28 @@ def test_capitals_that_the_file_system_passes_over_are_one_file(tmp_path: Path) 
     b.hardlink_to(a)
     with pytest.raises(OutputError, match="are one file"):
         check_outputs([("-o", a), ("--heat-map", b)])
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ("", "-o wood.png: this is the file that is read"),
+        ("-o a.png --heat-map wood.png", "--heat-map"),
+    ],
+)
+def test_no_picture_replaces_one_that_the_scene_names(
+    run: Run, tmp_path: Path, options: str, told: str
+) -> None:
+    """A scene wood.yaml with a texture wood.png had lost it to its own picture."""
+    (tmp_path / "wood.yaml").write_text(
+        "camera: {eye: [0, 1, 4], look_at: [0, 0, 0]}\n"
+        "materials: {wood: {texture: {image: wood.png}}}\n"
+        "lights: [{type: ambient, radiance: 1}]\n"
+        "objects: [{shape: quad, material: wood}]\n"
+    )
+    Image.new("RGB", (4, 4), "red").save(tmp_path / "wood.png")
+    before = (tmp_path / "wood.png").read_bytes()
+    result = run("render", "wood.yaml", *options.split())
+    assert told in str(result.exception or result.stderr) + result.stderr
+    assert (tmp_path / "wood.png").read_bytes() == before
+    assert files(tmp_path) == {"wood.yaml", "wood.png"}

@@ -114,6 +114,10 @@ def test_a_link_is_followed(tmp_path: Path, linear: Linear) -> None:
     save(link, linear)
     assert link.is_symlink()
     assert (tmp_path / "far" / "a.png").is_file()
+    (tmp_path / "far" / "a.png").unlink()
+    (tmp_path / "far").rmdir()
+    with pytest.raises(OutputError, match=r"there is no folder .*far: make it first"):
+        save(link, linear)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="files have no mode there")
