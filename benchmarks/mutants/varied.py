@@ -4,6 +4,7 @@ What no check varies, no check can find wrong. The arguments of all calls that t
 the checks meant by them.
 """
 
+import pickle
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -90,12 +91,18 @@ class FunctionSeen:
 
 def varied(module: str, seeds: int = 3) -> dict[str, FunctionSeen]:
     """By function, what the checks of a module that render nothing call the reference with."""
+    *_, seen = varying(module, seeds)
+    return seen
+
+
+def varying(module: str, seeds: int = 3) -> Iterator[dict[str, FunctionSeen]]:
+    """The same after each seed, which adds to what the seeds before it have shown."""
     spy = _Spy(module, reference(module))
-    for check in module_checks(module).checks:
-        if check.kind not in ("picture", "bias", "speed"):
-            for seed in range(seeds):
+    for seed in range(seeds):
+        for check in module_checks(module).checks:
+            if check.kind not in ("picture", "bias", "speed"):
                 check.run(Trial(check.function, spy, np.random.default_rng(seed)))
-    return spy.seen
+        yield spy.seen
 
 
 def gaps(module: str, seen: dict[str, FunctionSeen]) -> Iterator[str]:
@@ -146,15 +153,11 @@ class _Spy:
 
     def _look(self, function: str, arguments: tuple[Any, ...]) -> None:
         seen = self.seen[function]
-        key = (
-            function,
-            b"|".join(
-                np.asarray(a).tobytes() if isinstance(a, np.ndarray) else str(a).encode()
-                for a in arguments
-            ),
-        )
-        seen.repeated |= key in self._asked
-        self._asked.add(key)
+        if not seen.repeated:
+            plain = [np.array(a, order="C") if isinstance(a, np.ndarray) else a for a in arguments]
+            key = (function, pickle.dumps(plain))
+            seen.repeated = key in self._asked
+            self._asked.add(key)
         declared = declared_function(self._module, function)
         for argument, value in zip(declared.arguments, arguments, strict=False):
             seen.arguments[argument.name].add(value, argument.axis)
