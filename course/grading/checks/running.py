@@ -153,8 +153,9 @@ def _asked(
     if lent and lent[0].status is Status.PASSED:
         return lent
     result, error = attempt(check, caller, yardstick=yardstick)
-    # What isn't in the file, or is in a file that can't be used, is nobody else's mistake.
-    alone = error is not None and (error.kind == "missing" or error.module_wide)
+    # What isn't in the file or not written yet, or is in a file that can't be used, is nobody else's mistake.
+    stub = error is not None and error.kind == "not written" and f".{check.function}:" in str(error)
+    alone = error is not None and (error.kind == "missing" or error.module_wide or stub)
     if not alone and result.status not in (Status.PASSED, Status.GRADER_ERROR):
         # It may have waited for the function that never ends; what is wrong with it itself says more.
         says_more = lent_first and result.status is Status.TIMEOUT

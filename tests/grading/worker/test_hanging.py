@@ -241,3 +241,15 @@ def test_functions_that_end_their_process_cost_no_other_its_points() -> None:
     for result in report.results:
         expected = Status.CRASHED if result.function in crashing else Status.PASSED
         assert result.status is expected, result
+
+
+def test_a_stub_is_asked_once_and_who_calls_it_with_the_courses_own_in_its_place(
+    starts: list[str],
+) -> None:
+    stubs = (PROJECT / "assignments" / f"{MODULE}.py").read_text(encoding="utf-8")
+    assert {result.status for result in graded(stubs).results} == {Status.NOT_ATTEMPTED}
+    assert starts == [MODULE]
+    body = f'    raise NotImplementedError("{MODULE}.displacement: not written yet")'
+    report = graded(f"{solution(MODULE)}\n\ndef displacement(*_):\n{body}\n")
+    found = {(result.function == "displacement", result.status) for result in report.results}
+    assert found == {(True, Status.NOT_ATTEMPTED), (False, Status.PASSED)}
