@@ -104,6 +104,7 @@ class Site:
         self.app = app
         self.files: dict[str, Path] = {}
         self.kept: set[Path] = set()
+        self._expanded: dict[tuple[str, str], str] = {}
 
     def outdated(self, app: Sphinx, env: BuildEnvironment, *_: Iterable[str]) -> list[str]:
         """Name the pages whose generated parts are no longer what they were."""
@@ -111,8 +112,8 @@ class Site:
         env.site_parts = {}  # type: ignore[attr-defined]
         changed = []
         for name in sorted(env.found_docs):
-            source = Path(env.doc2path(name))
-            text = self.expanded(name, source.read_text(encoding="utf-8"))
+            source = Path(env.doc2path(name)).read_text(encoding="utf-8")
+            text = self._expanded[name, source] = self.expanded(name, source)
             env.site_parts[name] = sha256(text.encode()).hexdigest()  # type: ignore[attr-defined]
             if before.get(name) not in (None, env.site_parts[name]):  # type: ignore[attr-defined]
                 changed.append(name)
@@ -120,7 +121,7 @@ class Site:
 
     def expand_page(self, app: Sphinx, name: str, source: list[str]) -> None:
         """Replace the comments of a page that is about to be parsed."""
-        source[0] = self.expanded(name, source[0])
+        source[0] = self._expanded.get((name, source[0])) or self.expanded(name, source[0])
 
     def finish(self, app: Sphinx, error: Exception | None) -> None:
         """Put the pictures, scenes and data beside the pages."""

@@ -87,6 +87,11 @@ def test_a_page_is_read_again_when_its_parts_change(
     assert site.outdated(None, env) == []
     monkeypatch.setitem(parts.PARTS, "scene_keys", lambda *_: "another")
     assert site.outdated(None, env) == ["keys"]
+    # To expand pages takes half of the time of a build: it is done once.
+    monkeypatch.setitem(parts.PARTS, "scene_keys", lambda *_: "a third")
+    source = ["<!-- site: scene_keys -->\n"]
+    site.expand_page(None, "keys", source)
+    assert source == ["another\n"]
 
 
 def test_an_unknown_part_is_named(tmp_path: Path) -> None:
