@@ -77,6 +77,8 @@ ONCE = {
 LIKE = {
     r"course check \w+ --watch": "docs/modules/soft_shadows.md",
     r"course check \w+ --html report.html": "docs/modules/thin_lens.md",
+    # The same modules are measured there, and more is done with what is measured.
+    r"course bench \w+( --quick)?": "docs/performance.md",
 }
 """What the pages of modules say alike, each of its own, and the one page for which it is run."""
 
@@ -173,7 +175,7 @@ class Page:
 
     def _like(self, line: str) -> str | None:
         """The page for which a line of another module is run."""
-        if self.name != f"docs/modules/{line.removeprefix('course check ').partition(' ')[0]}.md":
+        if self.name != f"docs/modules/{(*line.split(), '', '')[2]}.md":
             return None
         pages = [page for known, page in LIKE.items() if re.fullmatch(known, line)]
         return pages[0] if pages and pages[0] != self.name else None

@@ -118,6 +118,14 @@ def test_pages_can_be_followed(pages: list[str], copy: Path) -> None:
     shutil.rmtree(copy)
 
 
+def test_what_a_modules_page_measures_is_measured_for_the_page_of_performance() -> None:
+    lines = [block.text for block in blocks(PROJECT / "docs" / "performance.md")]
+    for page in MODULES:
+        for block in blocks(PROJECT / page):
+            if block.text.startswith("course bench "):
+                assert any(line.startswith(f"course bench {Path(page).stem} ") for line in lines)
+
+
 PAGE = """\
 Save this as `a.yaml`:
 
