@@ -47,7 +47,7 @@ SAMPLES = 64
 """Samples a pixel of a picture that is shown, as far as the time goes."""
 
 TRIED = 4
-"""Samples a pixel of a small picture whose time tells that of the large one."""
+"""Samples a pixel of a picture whose time tells that of one with more."""
 
 QUALITY = 82
 """Of the WebP pictures. With it two pictures and a plot take 30 to 100 kB, so twenty modules stay under 2 MB."""
@@ -189,9 +189,8 @@ def _rendered(
     if not path.is_file():
         return Shown(module, (), "", "", (0, 0), "", None, (), f"no scene {path}", functions)
     scene = load_scene(path, effects)
-    points = tuple(_errors(scene, began + 0.5 * seconds, clock))
-    left = seconds - (clock.now() - began)
-    after, few = _picture(scene, 0.7 * left, clock)
+    after, few = _picture(scene, 0.4 * seconds, clock)
+    points = tuple(_errors(scene, began + 0.65 * seconds, clock))
     without = scenes / "before" / f"{module}.yaml"
     earlier, few_before = "", 0
     if without.is_file():
@@ -259,18 +258,22 @@ def _picture(scene: Scene, seconds: float, clock: _Clock) -> tuple[Picture, int]
     size = _within(scene, WIDTH)
     if _fixed(scene):
         return _whole(scene, clock, size=size), 0
-    small = _within(scene, CURVE_WIDTH)
+    end = clock.now() + seconds
+    # The first picture of a scene makes its stages: what samples take is told by the next.
+    picture, samples = _whole(scene, clock, spp=1, size=size), 1
     for _ in range(2):
         began, compiled = clock.now(), clock.compiled
-        _whole(scene, clock, spp=TRIED, size=small)
-        took = clock.now() - began
+        if began >= end:
+            break
+        picture, samples = _whole(scene, clock, spp=TRIED, size=size), TRIED
+        each = (clock.now() - began) / TRIED
+        fitting = 2 ** int(math.log2(min(max((end - clock.now()) / each, 1.0), SAMPLES)))
         # A render in which loops were compiled doesn't tell how fast they are.
         if clock.compiled == compiled:
+            if fitting > TRIED:
+                picture, samples = _whole(scene, clock, spp=fitting, size=size), fitting
             break
-    each = took / TRIED * math.prod(size) / math.prod(small)
-    fitting = min(max(seconds / each, 1.0), SAMPLES)
-    samples = 2 ** int(math.log2(fitting))
-    return _whole(scene, clock, spp=samples, size=size), samples if samples < SAMPLES else 0
+    return picture, samples if samples < SAMPLES else 0
 
 
 def _whole(scene: Scene, clock: _Clock, **settings: Any) -> Picture:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from time import sleep
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -176,6 +177,27 @@ def test_the_time_in_which_loops_are_compiled_is_not_taken_from_the_pictures(
     Slow(monkeypatch, seconds=0.001, compiling=1.0)
     page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=1)
     assert page.short == ()
+
+
+def test_what_every_render_takes_whatever_its_samples_is_not_taken_for_samples(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    """A large scene: its stages take two seconds, a render a fifth of one, and 64 samples a pixel one more."""
+    (folder / "soft_shadows.yaml").write_text(
+        (SCENE + SPHERE).replace("24, height: 16", "400, height: 266")
+    )
+    now, made_stages = [0.0], [2.0]
+
+    def rendered(scene: Scene, spp: int, size: tuple[int, int], **_: object) -> SimpleNamespace:
+        now[0] += 0.2 + (made_stages.pop() if made_stages else 0.0)
+        now[0] += 1e-5 * spp * size[0] * size[1] / 64
+        return SimpleNamespace(interrupted=False)
+
+    monkeypatch.setattr(made, "monotonic", lambda: now[0])
+    monkeypatch.setattr(made, "render", rendered)
+    scene = load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True))
+    assert made._picture(scene, 8.0, made._Clock())[1] == 0
+    assert now[0] < 8
 
 
 def test_the_terminal_names_the_modules_whose_pictures_got_fewer_samples(
