@@ -94,6 +94,15 @@ def _all_three(a: Arguments, r: Any) -> tuple[Any, ...]:
     return np.stack(r), np.stack(_place(a.direction)), 1.0
 
 
+def _letter(trial: Trial, a: Arguments, r: Any) -> None:
+    """Show (u, v) of directions that make a letter F on each face: all of them fill the square, mirrored or not."""
+    u, v = expected = np.stack(_place(a.direction)[1:])
+    stem, upper, lower = u < 0.35, v > 0.75, (v > 0.4) & (v < 0.55) & (u < 0.65)
+    of = (u > 0.2) & (u < 0.8) & (v > 0.1) & (v < 0.9) & (stem | upper | lower)
+    title = "(u, v) of directions that make an F on each face"
+    trial.show("points", title, yours=np.stack(r[1:])[:, of], expected=expected[:, of])
+
+
 FACE_AND_UV = function(
     "cube_map.face_and_uv",
     {"direction": DIRECTION},
@@ -141,12 +150,7 @@ FACE_AND_UV = function(
             "On each face u runs along its rows and v down its columns, from 0 to 1: look which axis "
             "and which sign OpenGL's table gives to them there.",
             what="face (row 0), u (1) or v (2):",
-            figure=lambda trial, a, r: trial.show(
-                "points",
-                "(u, v)",
-                yours=np.stack(r[1:]),
-                expected=np.stack(_place(a.direction)[1:]),
-            ),
+            figure=_letter,
             role="core",
         ),
         close(

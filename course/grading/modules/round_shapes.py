@@ -158,7 +158,8 @@ def uniform_over(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | Non
         what=shape.what,
         case=case,
         whole=True,
-        picture=lambda a, r: offsets(a, r)[:2],
+        # Of a sphere or a ball obliquely: from above, its upper half looks like all of it.
+        picture=lambda a, r: FRAME[:2] @ p if len(p := offsets(a, r)) == 3 else p,
     )
 
 

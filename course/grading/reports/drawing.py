@@ -409,8 +409,9 @@ def _scatter(
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_aspect("equal" if square else "auto")
-    axes.set_xlabel("first coordinate")
-    axes.set_ylabel("second coordinate")
+    if not disk:
+        axes.set_xlabel("first coordinate")
+        axes.set_ylabel("second coordinate")
     outside = int(((points < low[:, None]) | (points > high[:, None])).any(axis=0).sum())
     seen = f"{points.shape[1]} points"
     caption = seen + (f", {outside} of them outside of the axes" if outside else "")

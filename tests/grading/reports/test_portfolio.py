@@ -188,7 +188,7 @@ def test_what_every_render_takes_whatever_its_samples_is_not_taken_for_samples(
     )
     now, made_stages = [0.0], [2.0]
 
-    def rendered(scene: Scene, spp: int, size: tuple[int, int], **_: object) -> SimpleNamespace:
+    def rendered(_scene: Scene, spp: int, size: tuple[int, int], **_: object) -> SimpleNamespace:
         now[0] += 0.2 + (made_stages.pop() if made_stages else 0.0)
         now[0] += 1e-5 * spp * size[0] * size[1] / 64
         return SimpleNamespace(interrupted=False)
