@@ -31,6 +31,12 @@ _DRAWN = ("picture", "bias", "order", "speed")
 State = Literal["right", "wrong", "to do", "undecided"]
 
 
+def _first(result: Result) -> int:
+    """Its place in ``_FIRST``; a wrong dtype doesn't say why others failed."""
+    first = result.check in _FIRST and " of dtype " not in result.expected
+    return _FIRST.index(result.check) if first else len(_FIRST)
+
+
 class Total:
     """A sum: its points are those of its parts."""
 
@@ -147,7 +153,7 @@ class FunctionResults(Total):
                 key=lambda r: (
                     r.check in _LAST,
                     r.kind in _DRAWN,
-                    _FIRST.index(r.check) if r.check in _FIRST else len(_FIRST),
+                    _first(r),
                     -r.of,
                 ),
             )

@@ -131,6 +131,13 @@ def test_shapes_and_lengths_are_told_before_what_hangs_on_them(report: Report) -
     assert [result.check for result in told] == ["contract", "unit_length", "density", "columns"]
 
 
+def test_a_wrong_dtype_is_told_after_what_is_worth_more(report: Report) -> None:
+    failed = replace(report.results[1], kind="property", says="")
+    dtype = replace(failed, check="contract", of=0.1, expected="u of dtype float32")
+    told = FunctionResults(failed.module, failed.function, (dtype, replace(failed, of=1))).told
+    assert [result.of for result in told] == [1, 0.1]
+
+
 def test_what_was_said_before_is_folded(report: Report) -> None:
     first = report.results[1]
     again = [
