@@ -1,22 +1,30 @@
 // A module's page as slides: MODULE.html?slides, or the button below the page. What the page shows is cut into slides and
-// stays alive, for its nodes are moved; the first sentence of each paragraph stands on its slide, and the whole text is the
-// speaker's. Right and left turn, N shows the notes, S opens a window for the speaker that follows, P prints slides with
-// notes, Escape ends.
+// stays alive, for its nodes are moved; the first sentence of each paragraph and those with formulas stand on its slide, and
+// the whole text is the speaker's. Right and left turn, N shows the notes, S opens a window for the speaker that follows, P
+// prints slides with notes, Escape ends.
 {
   const LARGE = "figure, iframe, table, .series, .mistakes, .before-after, .pattern-explorer, details, .table-wrapper";
+  const SHORT = 40; // characters: a sentence such as "This is method 1." says nothing by itself
   const asked = new URLSearchParams(location.search);
   const page = document.querySelector("article section");
   const address = (number, more = "") => `${location.pathname}?slides=${number}${more}`;
 
-  // As much of a paragraph as its first sentence, with its formulas.
+  // Of a paragraph its first sentence, the next one where that is short, and those with formulas.
   const sentence = (paragraph) => {
     const part = document.createElement("p");
     part.className = "lead";
+    let [one, gap] = [[], ""];
+    const end = () => {
+      const formula = one.some((node) => node.querySelector?.("mo"));
+      if (part.textContent.length < SHORT || formula) (part.append(gap, ...one), (gap = ""));
+      else gap = " …";
+      one = [];
+    };
     for (const node of paragraph.childNodes) {
-      const end = node.nodeType === Node.TEXT_NODE ? node.data.search(/[.?!](\s|$)/) : -1;
-      part.append(end < 0 ? node.cloneNode(true) : node.data.slice(0, end + 1));
-      if (end >= 0) break;
+      if (node.nodeType !== Node.TEXT_NODE) one.push(node.cloneNode(true));
+      else for (const piece of node.data.split(/(?<=[.?!])(?=\s)/)) (one.push(piece), /[.?!]$/.test(piece) && end());
     }
+    end();
     return part;
   };
 

@@ -42,6 +42,20 @@ def test_all_of_a_page_is_in_its_slides_or_its_notes(browser: Any, site: Path, m
         assert page.url.endswith(f"?slides={len(found)}")
 
 
+def test_a_slide_has_what_its_paragraphs_say_in_formulas(browser: Any, site: Path) -> None:
+    with untroubled(browser) as page:
+        page.goto(f"{(site / 'modules' / 'soft_shadows.html').as_uri()}?slides")
+        page.wait_for_selector(DECK)
+        leads = [" ".join(each.split()) for each in page.locator(".lead").all_text_contents()]
+    assert any(
+        each.startswith("How wide is a penumbra? Draw") and "width" in each for each in leads
+    )
+    assert any("one column for each shading point. … So set the share" in each for each in leads)
+    assert (
+        "From a place on the floor, a point is either seen or hidden, so the edge is hard." in leads
+    )
+
+
 def test_keys_turn_slides_and_sliders_keep_theirs(browser: Any, site: Path) -> None:
     file = site / "modules" / "soft_shadows.html"
     with untroubled(browser) as page:
