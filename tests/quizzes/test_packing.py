@@ -142,6 +142,12 @@ def test_a_package_of_qti_12_holds_what_it_names() -> None:
             assert {each.attrib["linkrefid"] for each in item.iter("displayfeedback")} == feedback
 
 
+def test_a_package_of_one_module_is_one_quiz() -> None:
+    """As New Quizzes of Canvas asks for, which takes no package with two."""
+    kinds = re.findall(r'type="(imsqti\w+)"', canvas(QUESTIONS[:2])["imsmanifest.xml"].decode())
+    assert kinds == ["imsqti_xmlv1p2"]
+
+
 def test_a_package_of_qti_21_holds_what_it_names() -> None:
     files = qti21(QUESTIONS)
     manifest = structured(
