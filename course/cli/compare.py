@@ -126,6 +126,7 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
                 ("altogether", f"{found.p_value:.2g}"),
                 ("largest block", f"{found.p_block:.2g}"),
                 ("all blocks", f"{found.p_all:.2g}"),
+                ("spot", f"{found.p_spot:.2g}, at column {found.spot[0]}, row {found.spot[1]}"),
             ],
         ),
         (

@@ -13,8 +13,9 @@ brightness say, long before one block alone could.
 If both pictures have the same noise, d is as often positive as negative, whatever its tails; a t is then too large
 less often than Student's law says (Efron, "Student's t-test under symmetry conditions", 1969).
 
-A place that is smaller than a block's cells, or lies across the borders of some, can't be told from noise so. How many
-pixels differ at all, and which one most, is told beside it.
+A place that is smaller than a block's cells, or lies across the borders of some, can't be told from noise so. A third
+test looks for one spot of three pixels or more (``course.comparing.spots``). How many pixels differ at all, and which
+one most, is told beside it.
 """
 
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ from typing import Any
 import numpy as np
 
 from course.comparing.blocks import SMALLEST, differences, divide, together
+from course.comparing.spots import most_different_spot
 from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseError
 from course.formats.pictures.display import linear_to_srgb8, srgb_to_linear
@@ -45,6 +47,8 @@ class Comparison:
     ----------
     p_value : how often noise alone would show as much, or more; corrected for the number of blocks and channels
     p_block, p_all : the same of the most significant block alone, and of all large blocks together
+    p_spot : the same of the spot of a few pixels that stands out most
+    spot : its column and row
     mean_difference : of a - b, over usable pixels, for red, green and blue [radiance]
     mean : of both pictures there
     rmse : root-mean-square difference, over usable pixels and channels [radiance]
@@ -61,6 +65,8 @@ class Comparison:
     p_value: float
     p_block: float
     p_all: float
+    p_spot: float
+    spot: tuple[int, int]
     mean_difference: tuple[float, float, float]
     mean: tuple[float, float, float]
     rmse: float
@@ -144,12 +150,15 @@ def _test(
     tested, p = (large, small)[chosen], by_block[chosen]
     worst, channel = np.unravel_index(p.argmin(), p.shape)
     p_block = min(1.0, 2 * min(least))
+    p_spot, *spot = most_different_spot(a, b, usable)
     difference: Any = (a - b)[usable]
     both: Any = 0.5 * (a + b)[usable]
     return Comparison(
-        p_value=min(1.0, 2 * min(p_block, p_all)),
+        p_value=min(1.0, 3 * min(p_block, p_all, p_spot)),
         p_block=p_block,
         p_all=p_all,
+        p_spot=p_spot,
+        spot=(spot[0], spot[1]),
         mean_difference=tuple(difference.mean(axis=0).tolist()),
         mean=tuple(both.mean(axis=0).tolist()),
         rmse=float(np.sqrt((difference**2).mean())),
