@@ -75,10 +75,8 @@ class Contract:
         for (name, shape), value in zip(self.arguments, values, strict=False):
             if shape == "*":
                 known["*"] = len(value)
-            elif isinstance(value, (int, np.integer)):
-                known[name] = int(value)
-            elif isinstance(value, tuple) and value:
-                known[name] = len(value[-1])
+            elif isinstance(value, (int, np.integer, tuple)):
+                known[name] = len(value[-1]) if isinstance(value, tuple) else int(value)
             elif shape:
                 for word, size in zip(shape.split(), np.shape(value), strict=False):
                     # A single column stands for as many as there are.
