@@ -92,7 +92,8 @@ def test_false_alarms_are_as_rare_as_promised() -> None:
         assert_honest(of_all)
     together = np.concatenate(found, axis=1)
     assert (together <= 1e-3).mean() <= 2e-3
-    assert (found[0][0] <= 0.5).mean() > 0.25, "it isn't honest by never saying anything"
+    # Two of three tests alone, each to a third of 0.5, would say so in 0.31 of all pairs.
+    assert (found[0][0] <= 0.5).mean() > 0.15, "it isn't honest by never saying anything"
 
 
 @pytest.mark.parametrize("noise", [even, uneven, heavy])
