@@ -3,7 +3,7 @@
 Which permutations are drawn is the function's own business; what is asked is asked of the samples that rays take.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from copy import deepcopy
 from itertools import permutations
 from math import factorial
@@ -76,17 +76,30 @@ def _rays_law(name: str, title: str, true: Any, says: str, hint: str, **how: Any
     return holds(name, title, true, says, hint, n=60, **how)
 
 
-CALLS = 240
+CALLS, MOST = 240, 32
+"""Of the function, and samples of a pattern."""
+
+
+def _drawn(function: Function, trial: Trial, s: int) -> Iterator[Array]:
+    """CALLS times (4, s): which of s samples of each pattern the rays have."""
+    for _ in range(CALLS):
+        patterns = _patterns(Draw(trial.rng, 3), s)
+        a = Arguments(patterns=patterns, ids=np.arange(s), rng=trial.generator())
+        yield _taken(a, function.call(trial, deepcopy(a)))
+
+
+def _placed(function: Function, trial: Trial, s: int) -> Array:
+    """(s * s,): how often each ray has each sample; what is none is left out."""
+    pairs = s * np.arange(s) + np.concatenate(list(_drawn(function, trial, s))).astype(int)
+    return np.bincount(pairs[pairs >= 0], minlength=s * s)
 
 
 def _permutations(function: Function, trial: Trial, s: int) -> Array:
     """(CALLS, 4): the permutation of each pattern of s samples, by number."""
     orders = {order: k for k, order in enumerate(permutations(range(s)))}
     found = []
-    for _ in range(CALLS):
-        patterns = _patterns(Draw(trial.rng, 3), s)
-        a = Arguments(patterns=patterns, ids=np.arange(s), rng=trial.generator())
-        for k, taken in enumerate(_taken(a, function.call(trial, deepcopy(a))).tolist()):
+    for call in _drawn(function, trial, s):
+        for k, taken in enumerate(call.tolist()):
             if tuple(taken) not in orders:
                 found_of = ", ".join("none" if one < 0 else str(one) for one in taken)
                 expected = (
@@ -112,6 +125,13 @@ def _other_sizes(function: Function, trial: Trial) -> None:
     # Of three samples all permutations are turns and mirror images; of four most aren't.
     for s in (2, 4):
         _counted(function, trial, s)
+    # A shuffle that swaps each sample with any other is hardly uneven for a few, and more so for many.
+    chi_squared(
+        _placed(function, trial, MOST),
+        np.full(MOST**2, CALLS * len(ROWS) / MOST),
+        f"how often each ray has each of {MOST} samples",
+        "All orders are equally probable: a sample that has its place takes no part in further swaps.",
+    )
 
 
 def _untied(function: Function, trial: Trial) -> None:
@@ -186,11 +206,11 @@ CHAIN = function(
         from_generator(),
         Law(
             "sizes",
-            "Patterns of two and of four samples have any permutation, too",
+            "Patterns of two, of four and of many samples have any permutation, too",
             _other_sizes,
             "corner",
             "distribution",
-            false_fail=2 * FALSE_FAIL,
+            false_fail=3 * FALSE_FAIL,
         ),
         Law(
             "decorrelated",

@@ -208,6 +208,11 @@ def _any_degrees(draw: Draw) -> Array:
     return np.asarray(1 / draw.rng.uniform(0.002, 1, draw.n))
 
 
+def _beyond_tables(draw: Draw) -> Mapping[str, Any]:
+    """Tables of books end at 30, 100 or 200 degrees, and then have the normal distribution's."""
+    return {"degrees": 10.0 ** draw.uniform(1.5, 2.6, draw.n), "level": draw.number(0.001, 0.01)}
+
+
 CRITICAL_VALUE = function(
     "denoising.critical_value",
     {
@@ -234,6 +239,15 @@ CRITICAL_VALUE = function(
             what="a critical value of",
             within=EXACT / EPSILON,
             case=lambda d: {"degrees": 10.0 ** d.rng.uniform(4, 6, d.n)},
+        ),
+        close(
+            "hundreds",
+            "With some hundred degrees it is not yet the normal distribution's",
+            _exact,
+            "Far out in the tails, Student's distribution takes thousands of degrees to become normal.",
+            what="a critical value of",
+            within=EXACT / EPSILON,
+            case=_beyond_tables,
         ),
         holds(
             "falling",

@@ -209,6 +209,12 @@ JITTER_IN_BALL = _lobe(
             scales=SEVERAL * 2,
         ),
         smooth(10.0, case=lambda _: {"glossiness": 0.5}),
+        # A unit vector's Laplacian is -2 of it over the squared distance: a ball's mean is 1 - glossiness^2 / 5.
+        evenly(
+            lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1],
+            1 - 0.9**2 / 5,
+            case=lambda d: {**_up(d), "glossiness": 0.9},
+        ),
         uniform(
             "uniform",
             "Points are uniform over the ball's volume",
@@ -272,7 +278,7 @@ SAMPLE_PHONG_LOBE = _lobe(
         ),
         _density("density", "Directions have the density of the lobe, around its axis", 0.5, 5),
         cornered(_density("flat", "Exponent 0 gives the uniform hemisphere", 0, 0)),
-        cornered(_density("narrow", "Lobes of exponents to 10^4 have their density", 100, 1e4)),
+        cornered(_density("narrow", "Lobes of exponents to 10^4 have their density", 1e3, 1e4)),
         cornered(_density("poles", "The lobe is the same about each axis", 2, 20, _one_pole)),
         smooth(10.0),
         evenly(

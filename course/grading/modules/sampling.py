@@ -74,6 +74,32 @@ def _acceptance(rows: int) -> Law:
     return Law("acceptance", title, run, "corner", "distribution", 2.0, FALSE_FAIL)
 
 
+def _any_count(rows: int) -> Law:
+    """A supply that is enough on average runs out now and then, of few points oftener than of many."""
+
+    def run(function: Function, trial: Trial) -> None:
+        for n in np.geomspace(1, 200, SUPPLIES).astype(int).tolist():
+            a = Arguments(n=n, rng=trial.generator())
+            points = function.call(trial, a)
+            differ = np.unique(points, axis=1).shape[1]
+            if differ < n or not np.abs(points).sum(axis=0).all():
+                raise Failure(
+                    f"{n} points of their own",
+                    f"{differ} that differ" if differ < n else "one at the centre",
+                    f"{function.name}(n = {n}, rng = a generator)",
+                    "What is missing when the candidates are used up is drawn anew.",
+                )
+
+    title = "However many points are asked for, all are drawn"
+    # Two points of single precision are the same, or one is the centre.
+    chance = SUPPLIES * 200**2 * 2.0 ** (-24 * rows)
+    return Law("supply", title, run, "corner", "property", false_fail=chance)
+
+
+SUPPLIES = 120
+"""Calls, for 1 to 200 points each."""
+
+
 def _habits(a: Arguments, points: Array) -> Array:
     """What mistakes show in: the points, how many there are and differ, and how many candidates it took, if counted."""
     rows = len(points)
@@ -93,6 +119,7 @@ def _by_rejection(shape: Shape, rows: int) -> Function:
         (
             edge(shape, dtypes=(np.float32,)),
             _acceptance(rows),
+            _any_count(rows),
             from_generator(),
             moments(shape),
             uniform_over(shape),

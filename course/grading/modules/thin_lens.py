@@ -23,10 +23,10 @@ POINT_ON_DISK = unit_points("thin_lens.point_on_disk", DISK)
 # ---------------------------------------------------------------- lens_rays
 
 
-def _camera(draw: Draw, radius: float | None = None) -> Mapping[str, Any]:
-    """A camera that looks anywhere, and the pinhole's rays of a picture of a right angle."""
+def _camera(draw: Draw, radius: float | None = None, wide: float = 1.0) -> Mapping[str, Any]:
+    """A camera that looks anywhere, and the pinhole's rays of a picture as wide; at 1, of a right angle."""
     right, up, forward = draw.frame()
-    picture = np.concatenate((draw.uniform(-1, 1, 2, draw.n), np.ones((1, draw.n))))
+    picture = np.concatenate((draw.uniform(-wide, wide, 2, draw.n), np.ones((1, draw.n))))
     d = np.stack((right, up, forward)).T @ picture
     size = draw.scale * (draw.number(0.05, 0.5) if radius is None else radius)
     return {
@@ -39,8 +39,8 @@ def _camera(draw: Draw, radius: float | None = None) -> Mapping[str, Any]:
 
 
 def _extremes(draw: Draw) -> Mapping[str, Any]:
-    """A pinhole, or a lens as wide as its focus is far."""
-    return {**_camera(draw, draw.rng.choice((0.0, 2.0))), "focus_distance": 2.0 * draw.scale}
+    """A pinhole, or a lens as wide as its focus is far, and rays up to 85 degrees off the axis."""
+    return {**_camera(draw, draw.rng.choice((0.0, 2.0)), 8.0), "focus_distance": 2.0 * draw.scale}
 
 
 def _on_lens(a: Arguments) -> Array:

@@ -81,6 +81,9 @@ REMEDIES = {
         "An operation in place (+=, *=, out=) keeps its array's dtype, and the result is of another: "
         "write a = a * b, and cast to the dtype of the batch in the end."
     ),
+    r"instead of numbers or arrays of numbers": (
+        "A subclass of NumPy's array, such as a masked array or a matrix, becomes an array by np.array(...)."
+    ),
     r"must have the same shape|must match exactly|inhomogeneous shape": (
         "np.stack and np.array take rows of one shape: a number beside batches has to become a batch first, "
         "as np.zeros_like or np.full make one."
@@ -108,7 +111,9 @@ def replied(kind: Trouble, head: Mapping[str, Any], arguments: str = "") -> Stud
         type_,
         "\n".join(_cut(line, LONGEST_LINE) for line in lines),
         arguments=arguments if kind == "raised" else "",
-        remedy=remedy(f"{type_}: {message[:LONGEST_TEXT]}") if kind == "raised" else "",
+        remedy=remedy(f"{type_}: {message[:LONGEST_TEXT]}")
+        if kind in ("raised", "bad value")
+        else "",
     )
 
 

@@ -10,6 +10,7 @@ from course.grading.checks.check import Check
 from course.grading.checks.result import troubled
 from course.grading.errors import StudentError
 from course.grading.worker.client import Worker
+from course.grading.worker.framing import pack
 from course.grading.worker.wording import remedy, replied, said, told
 
 U = np.ones((2, 17))
@@ -61,6 +62,13 @@ def test_what_everybody_does_once_has_a_remedy(name: str) -> None:
 )
 def test_what_nobody_knows_has_none_or_a_general_one(text: str) -> None:
     assert remedy(text) == "" or text == "could not be broadcast"
+
+
+def test_a_masked_array_is_told_how_to_become_an_array() -> None:
+    with pytest.raises(TypeError) as error:
+        pack({}, [np.ma.masked_array(U)])
+    told_as = replied("bad value", {"message": f"it returned {error.value}"})
+    assert "becomes an array by np.array(...)" in told_as.remedy
 
 
 def test_forged_texts_make_no_trouble() -> None:
