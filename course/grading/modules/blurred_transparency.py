@@ -250,6 +250,16 @@ JITTER_REFRACTION = function(
             case=_far(_flat, 0.5, 0.9, 2.0),
             scales=(1.0,) * 3,
         ),
+        close(
+            "sizes",
+            "Small and large squares are as wide as they should be",
+            _out_of_square,
+            "The sides are as long as roughness, however small or large that is.",
+            what="from the place in the square, directly or by way of the mirror, a distance of",
+            within=100,
+            case=_far(_flat, 0.01, 5.0),
+            scales=(1.0,) * 6,
+        ),
         no_jitter("roughness", _far(_flat)),
         square(
             "square",
@@ -346,6 +356,15 @@ FRESNEL = function(
             scales=(1.0,) * 4,
             role="core",
             whole=True,
+        ),
+        _reflected(
+            "slanting",
+            "Nearly along the surface most is mirrored, and not all",
+            hint="Only along the surface itself all is mirrored.",
+            case=lambda d: {
+                "eta": d.uniform(0.1, 0.95, d.n),
+                "cos_i": 10 ** d.uniform(-4, -1, d.n),
+            },
         ),
         _reflected(
             "total",

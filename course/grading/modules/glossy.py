@@ -170,7 +170,7 @@ JITTER_ON_PLANE = _lobe(
             "The sides are as long as roughness, however small or large that is.",
             what="from the direction's tip to the result's,",
             case=lambda d: {"roughness": float(10.0 ** d.rng.choice((-6, -4, -2, 1, 3, 6)))},
-            scales=SEVERAL,
+            scales=SEVERAL * 3,
         ),
         square(
             "poles",
@@ -194,6 +194,20 @@ def _by_volume(a: Arguments, r: Array) -> Array:
     return np.stack((1 - outside, turn_about(a.direction, r)))
 
 
+def _at_an_end(name: str, title: str, low: float, high: float, *, wide: bool) -> Law:
+    """How far points of a ball lie off the axis, where glossiness, or what it is less than 1, is so small."""
+    ends = uniform(
+        name,
+        title,
+        lambda a, r: _by_volume(a, r)[:1],
+        (24,),
+        "No ball is too small, and none too large, to be jittered by.",
+        what="share of the ball's volume within each direction",
+        case=lambda d: {**_one(d), "glossiness": abs(wide - d.number(low, high))},
+    )
+    return cornered(ends)
+
+
 JITTER_IN_BALL = _lobe(
     "jitter_in_ball",
     {"glossiness": declare.number(0.15, 0.95, (-1.0, -1e-6, nan, 1.0, 1.5))},
@@ -214,6 +228,10 @@ JITTER_IN_BALL = _lobe(
             lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1],
             1 - 0.9**2 / 5,
             case=lambda d: {**_up(d), "glossiness": 0.9},
+        ),
+        _at_an_end("narrow", "Small balls are filled as they should be", 0.002, 0.03, wide=False),
+        _at_an_end(
+            "wide", "Balls that nearly hold the origin are filled, too", 0.001, 0.03, wide=True
         ),
         uniform(
             "uniform",

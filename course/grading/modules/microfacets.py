@@ -172,6 +172,16 @@ SMITH_G1 = function(
             case=lambda d: {"cos": np.ones(d.n)},
         ),
         close(
+            "slanting",
+            "Views along the surface see what they should, of smooth surfaces as well",
+            lambda a, r: (r, *2 * (1 / (1 + _lambda(a.cos, a.alpha)),)),
+            "Neither a cosine nor a roughness is too small to count.",
+            what="a share of",
+            within=64,
+            case=lambda d: {"cos": 10 ** d.uniform(-4, -1, d.n), "alpha": d.number(0.001, 1)},
+            scales=SEVERAL,
+        ),
+        close(
             "values",
             "G1 is its formula",
             lambda a, r: (r, *2 * (1 / (1 + _lambda(a.cos, a.alpha)),)),
@@ -205,6 +215,12 @@ def _one_straight(draw: Draw) -> Mapping[str, Any]:
     return {"cos_o": np.where(first, cos, 1), "cos_i": np.where(first, 1, cos)}
 
 
+def _slanting(draw: Draw) -> Mapping[str, Any]:
+    """Light along the surface, of which a smooth one hides little and a rough one nearly all."""
+    cos_i = 10 ** draw.uniform(-4, -1, draw.n)
+    return {"cos_o": draw.uniform(0.05, 1, draw.n), "cos_i": cos_i, "alpha": draw.number(0.001, 1)}
+
+
 _seen = partial(close, compare=lambda a, r: (r, *2 * (_both(a),)), what="a share of", within=64)
 
 SMITH_G2 = function(
@@ -224,6 +240,13 @@ SMITH_G2 = function(
             "Where one direction is straight above only the other hides anything",
             hint="Lambda is 0 straight above.",
             case=_one_straight,
+        ),
+        _seen(
+            "slanting",
+            "Light along the surface is hidden as it should be, by smooth surfaces as well",
+            hint="Neither a cosine nor a roughness is too small to count.",
+            case=_slanting,
+            scales=SEVERAL,
         ),
         _seen(
             "values",
@@ -288,6 +311,17 @@ SAMPLE_VISIBLE_NORMAL = function(
             picture=lambda _, r: r[:2],
         ),
         uniform(
+            "sharp",
+            "On nearly smooth surfaces normals are as probable as they look large",
+            lambda a, r: _cap(a, r)[:1],
+            (24,),
+            "No roughness is too small to count.",
+            what="height of the squeezed view's mirror image",
+            case=lambda d: {"alpha": d.number(0.001, 0.02)},
+            n=10_000,
+            picture=lambda _, r: r[:2],
+        ),
+        uniform(
             "density",
             "Normals are as probable as they look large",
             _cap,
@@ -309,8 +343,8 @@ SAMPLE_VISIBLE_NORMAL = function(
 # ---------------------------------------------------------------- visible_normal_pdf
 
 
-def _anywhere(draw: Draw) -> Mapping[str, Any]:
-    alpha = draw.number(0.1, 1)
+def _anywhere(draw: Draw, low: float = 0.1, high: float = 1) -> Mapping[str, Any]:
+    alpha = draw.number(low, high)
     return {"wo": _above(draw), "wm": _normals(alpha, draw), "alpha": alpha}
 
 
@@ -388,6 +422,13 @@ VISIBLE_NORMAL_PDF = function(
             "Along the surface the density is right",
             hint="G1 and wo_z both go to 0, and their ratio doesn't.",
             case=_flat,
+        ),
+        _probable(
+            "sharp",
+            "On nearly smooth surfaces the density is right, however large",
+            hint="No roughness is too small to count, and no density too large.",
+            case=lambda d: _anywhere(d, 0.001, 0.02),
+            scales=SEVERAL,
         ),
         _probable(
             "values",

@@ -111,6 +111,11 @@ VELOCITY = Made(_velocity)
 TIME = declare.values(-2.0, 3.0)
 
 
+def _along_axes(draw: Draw) -> Mapping[str, Any]:
+    """Objects that move along an axis, or in a plane of two of them."""
+    return {"velocity": _velocity(draw) * draw.rng.permutation((1, int(draw.rng.integers(2)), 0))}
+
+
 def _any_time(draw: Draw) -> Mapping[str, Any]:
     """From microseconds to weeks, of either sign, and none."""
     return {"time": draw.rng.choice((-1, 0, 1), draw.n) * np.geomspace(1e-6, 1e6, draw.n)}
@@ -142,6 +147,12 @@ DISPLACEMENT = function(
             "Long and short times have their ways, before the start as well, and time 0 has none",
             hint="At a constant velocity twice the time is twice the way.",
             case=_any_time,
+        ),
+        _gone(
+            "along-axes",
+            "Objects that move along one axis or two go their way along these",
+            hint="A component that is 0 says nothing of the others.",
+            case=_along_axes,
         ),
         _gone(
             "linear",
@@ -195,6 +206,12 @@ TO_OBJECT_SPACE = function(
             hint="Whoever travels along with the object stays at the same place of it.",
             what="a ray that starts on the object, seen from the object, at",
             case=_aboard,
+        ),
+        _seen(
+            "along-axes",
+            "Rays are moved by objects that move along one axis or two",
+            hint="An object stands still only if all components of its velocity are 0.",
+            case=_along_axes,
         ),
         _seen(
             "own-time",

@@ -30,8 +30,11 @@ def _of_the_unit(_: Arguments, points: Array) -> Array:
 FRAME = np.array([(0.8, 0.6, 0.0), (-0.36, 0.48, 0.8), (0.48, -0.64, 0.6)])
 """Axes that nobody builds a shape about: along these a cylinder or a wrong ring shows as well."""
 
-TILTS = {2: np.array([0.6, -0.8]), 3: FRAME[2]}
-"""Of length 1: the exponential of the points along them is a smooth function whose mean has a closed form."""
+TILTS = {2: np.array([0.6, -0.8]), 3: FRAME[1]}
+"""Of length 1: the exponential of the points along them is a smooth function whose mean has a closed form.
+
+No squared component is near 1 / 3, where it wouldn't show that points crowd towards poles or equator by little.
+"""
 
 NEAR = 1e-6
 """In radii: what is that near to the centre is at it, and in no direction."""
