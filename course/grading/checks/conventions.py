@@ -237,11 +237,11 @@ def _laid(value: Any, layout: Callable[[Array], Array]) -> Any:
 
 
 def _columns(function: Function, trial: Trial) -> None:
-    total = min(60, function.most)
+    total = min(1000, function.most)
     a = function.make(Draw(trial.rng, total, np.float32))
     every = _parts(function.call(trial, a))
-    # As many as there are rows is a case of its own where something is broadcast.
-    for n in (40, 1, 2, 3, 4):
+    # Of as many as laws look at. As many as there are rows is a case of its own where something is broadcast.
+    for n in (99, 40, 17, 7, 1, 2, 3, 4):
         order, some = trial.rng.permutation(total)[:n], Arguments(a)
         for argument in function.arguments:
             if argument.axis is not None:

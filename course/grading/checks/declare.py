@@ -396,10 +396,10 @@ def _looked(
     if result.finite and not np.isfinite(value).all():
         index = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
         raise Failure(f"{result.name} to be finite", f"{value[index]}", f"at index {index}")
-    if wanted is np.bool_:
-        return value.astype(bool)
-    # Truth values are taken for the numbers 0 and 1, which can be subtracted.
-    return value.astype(np.float64) if value.dtype.kind in "fb" else value
+    # Truth values are taken for the numbers 0 and 1, which can be subtracted; whole numbers for what indexes.
+    whole = kinds == "iu" and not (value % 1).any()
+    kind = bool if wanted is np.bool_ else np.int64 if whole else np.float64
+    return value.astype(kind) if kind is bool or value.dtype.kind in "fb" else value
 
 
 def _cast(batches: Sequence[str]) -> str:

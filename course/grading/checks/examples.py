@@ -105,7 +105,7 @@ def _of(value: Any, column: int, columns: int) -> str:
     if isinstance(value, tuple):
         return f"{len(value)} arrays"
     if isinstance(value, np.ndarray) and value.ndim:
-        axes = [axis for axis, size in enumerate(value.shape) if size == columns]
+        axes = [axis for axis, size in enumerate(value.shape) if size == columns > 0]
         if axes:
             value = value.take(column, axes[-1])
         numbers = np.ravel(value)

@@ -129,7 +129,7 @@ def _asked(
     *,
     lent_first: bool,
 ) -> tuple[Result, StudentError | None, Caller]:
-    """A check with the student's functions alone, and with the reference's above it if it doesn't pass so.
+    """A check with the student's functions alone; if it fails, with the reference's above it, where it calls those.
 
     Parameters
     ----------
@@ -160,7 +160,8 @@ def _asked(
         # It may have waited for the function that never ends; what is wrong with it itself says more.
         says_more = lent_first and result.status is Status.TIMEOUT
         lent = lent or with_reference()
-        if lent and (says_more or lent[0].status is Status.PASSED):
+        retried = result.status is Status.FAILED and not getattr(lent and lent[2], "borrowed", True)
+        if lent and (says_more or (lent[0].status is Status.PASSED and not retried)):
             return lent
     return result, error, caller
 

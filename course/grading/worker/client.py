@@ -69,6 +69,8 @@ class Worker:
     ) -> None:
         self.module = module
         self._lender, self._lent = lender, tuple(lent)
+        self.borrowed = False
+        """Whether a function that is lent has been asked for."""
         self.limits = limits or Limits()
         self.sandbox = shut_in or sandbox()
         self._source = source
@@ -249,6 +251,7 @@ class Worker:
         self._process.write(message, deadline)
         head, values = self._process.read(deadline)
         if "borrowed" in head:
+            self.borrowed = True
             # To start the lender is not the student's time.
             deadline += self._lender_ready()
         while "borrowed" in head:

@@ -7,7 +7,7 @@ import pytest
 
 from course.grading.checks.check import Failure
 from course.grading.checks.conventions import conventions
-from course.grading.checks.declare import Arguments
+from course.grading.checks.declare import Arguments, declaration
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, where
 from course.grading.errors import StudentError
@@ -64,6 +64,8 @@ BROKEN = {
     "takes any radius": ("refuses", _unchecked),
     "depends on its neighbours": ("columns", but(lambda v, _: v - v.mean(axis=1, keepdims=True))),
     "depends on the number of columns": ("columns", but(lambda v, _: v * (1 + v.shape[1] / 1e3))),
+    "few columns are none": ("columns", but(lambda v, _: v * (v.shape[1] >= 100))),
+    "some columns are none": ("columns", but(lambda v, _: v * (not 4 < v.shape[1] < 30))),
     "remembers": ("layouts", but(lambda v, _: v + next(COUNTER))),
     "reads the memory": (
         "layouts",
@@ -85,6 +87,17 @@ def test_truth_values_can_be_computed_with() -> None:
     made = SHIFTED.make(Draw(np.random.default_rng(1), 4, np.float32))
     found = SHIFTED.seen(np.ones((3, 4), bool), made)
     assert np.array_equal(found - found, np.zeros((3, 4)))
+
+
+def test_whole_numbers_that_came_as_floats_are_indices_of_a_check() -> None:
+    """Checks of many_lights had an error of their own, on lamps from ``np.floor``."""
+    power = declaration("many_lights", "power_choice")
+    assert power
+    made = power.make(Draw(np.random.default_rng(1), 4, np.float64))
+    lamps, _ = power.seen((np.array([0.0, 1, 2, 0]), np.ones(4)), made)
+    assert lamps.dtype.kind == "i"
+    lamps, _ = power.seen((np.array([0.0, 1.5, 2, 0]), np.ones(4)), made)
+    assert lamps.dtype.kind == "f"
 
 
 def test_a_hierarchy_of_a_million_levels_is_refused_at_once() -> None:
@@ -115,6 +128,11 @@ def test_the_largest_number_below_1_and_small_ones_are_not_shown_as_1_and_0() ->
     u = np.array([0.5, 1 - 2.0**-24, 1e-15, -2, 1])
     assert call("it", Arguments(u=u)) == "it(u = [0.5, 1 - 6e-08, 1e-15, -2., 1.])"
     assert where(Arguments(u=u), (1,), (5,)) == "u = 1 - 6e-08"
+
+
+def test_a_single_number_of_no_columns_is_shown() -> None:
+    """A check had an error of its own on a NaN that came for a picture without samples."""
+    assert where(Arguments(weights=np.zeros((0, 2))), (), ()) == "weights = ()"
 
 
 def test_wrong_shapes_are_axes_less_more_and_turned_and_rows() -> None:

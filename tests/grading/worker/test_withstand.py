@@ -324,6 +324,17 @@ def test_a_function_pays_for_no_other_functions_mistake(body: str) -> None:
     assert lost_functions(graded(with_displacement(body))) == {"displacement"}
 
 
+def test_only_who_calls_what_is_lent_is_asked_again() -> None:
+    """Another process is no second try for a function that is right in its first calls."""
+    tired = with_displacement(
+        "_check_single(velocity=velocity)\n"
+        "    _check_scalars('time', time)\n"
+        "    CALLS.append(1)\n"
+        "    return (len(CALLS) < 41) * np.outer(velocity, time).astype(time.dtype)"
+    )
+    assert lost_functions(graded(tired + "CALLS = []\n")) == {"displacement"}
+
+
 def test_nobody_passes_by_two_functions_that_call_each_other() -> None:
     circle = with_displacement(
         "return -to_object_space(np.zeros((3, len(time)), time.dtype), velocity, time)"
