@@ -31,14 +31,16 @@ def _instant(draw: Draw) -> Mapping[str, Any]:
 
 
 def _others(draw: Draw) -> Mapping[str, Any]:
-    """Open before time 0 and closed after it, or for thousandths of a second long after it."""
+    """Open before time 0 and closed after it, or for thousandths of a second long after it; one u is 0."""
+    u = draw.units(1)[0] * (np.arange(draw.n) < max(1, draw.n - 1))
     if draw.rng.random() < 0.5:
         return {
             "open": -draw.scale * draw.number(0.3, 2),
             "close": draw.scale * draw.number(0.3, 2),
+            "u": u,
         }
     first = draw.number(1, 9)
-    return {"open": first, "close": first + draw.number(1e-3, 1e-2)}
+    return {"open": first, "close": first + draw.number(1e-3, 1e-2), "u": u}
 
 
 def _longest(a: Arguments) -> float:

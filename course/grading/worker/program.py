@@ -53,6 +53,7 @@ def main() -> None:
         sys.addaudithook(_guard(tuple(settings["readable"])))
     send({"ready": True}, [])
     module = ModuleType(name)
+    module.__file__ = f"{name}.py"
     try:
         sys.modules[name] = module
         text = bytes(source)

@@ -26,9 +26,9 @@ REMEDIES = {
         "Each module is checked by itself, without the files beside it: "
         "copy the helper into this file."
     ),
-    r"No module named|not allowed while grading: (import |opening .*__init__)": (
+    r"No module named|relative import|not allowed while grading: (import |opening .*__init__)": (
         "While functions are checked there are NumPy and Python's own library, such as math, and nothing else: "
-        "import what draws, renders or compiles in another file, which calls these functions."
+        "copy helpers into this file, and import what draws, renders or compiles in another one, which calls it."
     ),
     r"not allowed while grading": (
         "While functions are checked they read and write no files, and start no programs: "

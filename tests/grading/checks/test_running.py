@@ -144,6 +144,16 @@ def test_what_gives_no_value_is_shown_by_the_smallest_call() -> None:
         assert "]): expected a value, came displacement returned None" in example
 
 
+def test_a_time_of_u_0_is_looked_at() -> None:
+    def late(open: Any, close: Any, u: Any) -> Any:  # noqa: A002 - the names of the course
+        return np.where(u == 0, close, open + (close - open) * u).astype(u.dtype)
+
+    (check,) = (c for c in module_checks("motion_blur").checks if c.name == "inside")
+    own = TrustedModule({"shutter_times": late})
+    (result,) = run_checks(ModuleChecks("motion_blur", (check,)), own, prepared(own, 0), 0)
+    assert result.status is Status.FAILED
+
+
 @pytest.mark.parametrize("lent", [True, False])
 def test_whoever_stands_below_a_function_that_hangs_is_asked_with_the_reference_first(
     lent: bool,

@@ -267,6 +267,11 @@ FILES: dict[str, tuple[bytes, Status, float]] = {
     "10 MB of source": (SOLUTION.encode() + b"# filler\n" * 1_200_000, Status.FAILED, 0.0),
     "Windows line ends": (SOLUTION.replace("\n", "\r\n").encode(), Status.PASSED, 1.0),
     "tabs": (SOLUTION.replace("    ", "\t").encode(), Status.PASSED, 1.0),
+    "its own name": (
+        b"import os\nHERE = os.path.dirname(os.path.abspath(__file__))\n" + SOLUTION.encode(),
+        Status.PASSED,
+        1.0,
+    ),
     "a byte order mark": (b"\xef\xbb\xbf" + SOLUTION.encode(), Status.PASSED, 1.0),
     "Latin-1": (
         b"# -*- coding: latin-1 -*-\n# \xe9\n" + SOLUTION.encode("latin-1", "replace"),

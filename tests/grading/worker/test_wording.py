@@ -145,6 +145,9 @@ def test_a_recursion_without_end_is_one_cause_however_deep_it_went() -> None:
 def test_a_module_beside_it_is_not_there() -> None:
     assert "copy the helper into this file" in remedy("No module named 'glossy'")
     assert "NumPy and Python's own library" in remedy("No module named 'pandas'")
+    assert "copy helpers into this file" in remedy(
+        "attempted relative import with no known parent package"
+    )
 
 
 @pytest.mark.parametrize(
