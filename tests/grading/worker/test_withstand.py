@@ -267,6 +267,7 @@ FILES: dict[str, tuple[bytes, Status, float]] = {
     "10 MB of source": (SOLUTION.encode() + b"# filler\n" * 1_200_000, Status.FAILED, 0.0),
     "Windows line ends": (SOLUTION.replace("\n", "\r\n").encode(), Status.PASSED, 1.0),
     "tabs": (SOLUTION.replace("    ", "\t").encode(), Status.PASSED, 1.0),
+    "all of NumPy": (b"from numpy import *\n" + SOLUTION.encode(), Status.PASSED, 1.0),
     "its own name": (
         b"import os\nHERE = os.path.dirname(os.path.abspath(__file__))\n" + SOLUTION.encode(),
         Status.PASSED,
