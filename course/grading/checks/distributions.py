@@ -96,8 +96,7 @@ def _none_alike(
     def run(function: Function, trial: Trial) -> None:
         a = function.make(Draw(trial.rng, n, np.float32), case)
         r = function.call(trial, a)
-        # Of points that are cut off on one coordinate, features differ by their rounding.
-        _check_no_atoms(np.round(features(exact(a), r), 5), what, a)
+        _check_no_atoms(np.round(features(exact(a), r), 5), what, a)  # points that are cut off differ by rounding
         if case is None and isinstance(r, np.ndarray) and r.ndim == 2:
             _check_no_atoms(r, "coordinates of the points", a)
 
