@@ -96,7 +96,7 @@ def _none_alike(
     def run(function: Function, trial: Trial) -> None:
         a = function.make(Draw(trial.rng, n, np.float32), case)
         r = function.call(trial, a)
-        _check_no_atoms(np.round(features(exact(a), r), 5), what, a)  # points that are cut off differ by rounding
+        _check_no_atoms(np.round(features(exact(a), r), 5), what, a)  # but for rounding
         if case is None and isinstance(r, np.ndarray) and r.ndim == 2:
             _check_no_atoms(r, "coordinates of the points", a)
 
