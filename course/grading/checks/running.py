@@ -68,8 +68,7 @@ def run_checks(
     attempt = partial(_attempt, checks.module, references=references, seed=seed, standard=standard)
     for check in filter(only, checks.checks):
         if check.function in given_up:
-            # What ran out of time isn't waited for again; and a stub must not earn the checks of its arguments, which
-            # it came with.
+            # What ran out of time isn't waited for again. A stub earns no checks of arguments, which it came with.
             first = given_up[check.function]
             found = first.found or NOT_WRITTEN
             if first.status is Status.TIMEOUT and not found.startswith(NOT_RUN):
