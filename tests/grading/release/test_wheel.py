@@ -95,7 +95,7 @@ def test_a_folder_to_work_in_is_made_rendered_and_checked(
     shutil.copy(files / "solutions" / "motion_blur.py", tmp_path / "mine" / "assignments")
     done = course("check", "motion_blur", folder="mine")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "30 of 30 points, 32 of 32 checks passed" in done.stdout
+    assert re.search(r"30 of 30 points, (\d+) of \1 checks passed", done.stdout)
 
 
 def test_a_picture_shows_what_is_written_so_far(course: Course, site: Path, tmp_path: Path) -> None:

@@ -184,7 +184,7 @@ ATTACKS = {
     "patches NumPy": Attack(
         "return np.zeros((3, len(time)), time.dtype)",
         "np.allclose = np.array_equal = lambda *a, **k: True\n",
-        lost={"contract", "at-rest", "travels-along", "own-time"},
+        lost={"contract", "at-rest", "along-axes", "travels-along", "own-time"},
     ),
     "signals its parent": Attack(f"import os\nos.kill(os.getppid(), 9)\n{RIGHT}"),
     "C through ctypes": Attack(f"import ctypes\nctypes.CDLL(None).fork()\n{RIGHT}"),
