@@ -27,6 +27,7 @@ from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sample import Light
 from course.core.lights.sphere import SphereLight
 from course.core.types import Floats, Floats32, Floats64, Indices, Mask
+from course.core.vectors import normalise
 from course.errors import CourseWarning
 from course.extras.materials import FullMaterials
 from course.extras.mesh_light import MeshLight
@@ -215,7 +216,8 @@ def _reached(world: FullWorld, met: Met, hits: Hits) -> bool:
 
 def _unit(x: Floats) -> Floats32:
     """Vectors (3, n) of length 1; those of length 0 stay so."""
-    unit: Floats32 = (x / np.maximum(np.linalg.norm(x, axis=0), 1e-30)).astype(np.float32)
+    unit = x.astype(np.float32)
+    normalise(unit)
     return unit
 
 

@@ -83,6 +83,12 @@ def _lambda(cos: Array, alpha: float) -> Array:
     return np.asarray(np.where(cos > 0, (np.sqrt(1 + alpha**2 * _tan2(cos)) - 1) / 2, np.inf))
 
 
+def _g1(a: Arguments, r: Array) -> tuple[Array, Array, Array]:
+    """Masking, and the share that is seen, which is its size, too."""
+    seen = 1 / (1 + _lambda(a.cos, a.alpha))
+    return r, seen, seen
+
+
 def _below(draw: Draw) -> Mapping[str, Any]:
     """Cosines below the horizon, and 0 itself."""
     return {"cos": -draw.uniform(0, 1, draw.n) * (np.arange(draw.n) % 4 > 0)}
@@ -174,7 +180,7 @@ SMITH_G1 = function(
         close(
             "slanting",
             "Views along the surface see what they should, of smooth surfaces as well",
-            lambda a, r: (r, *2 * (1 / (1 + _lambda(a.cos, a.alpha)),)),
+            _g1,
             "Neither a cosine nor a roughness is too small to count.",
             what="a share of",
             within=64,
@@ -184,7 +190,7 @@ SMITH_G1 = function(
         close(
             "values",
             "G1 is its formula",
-            lambda a, r: (r, *2 * (1 / (1 + _lambda(a.cos, a.alpha)),)),
+            _g1,
             "Lambda is half of what sqrt(1 + alpha^2 tan^2) is above 1.",
             what="a share of",
             within=64,
