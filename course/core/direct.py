@@ -116,7 +116,7 @@ class DirectLight:
         return diffuse, specular
 
     def _points(self, hits: Hits, light: Light) -> Floats32:
-        """Shading points (3, n) for which the light is sampled: the origins of the shadow rays."""
+        """Shading points (3, n) for which the light is sampled: the shadow rays' origins, in a moving light's frame."""
         return self._as_if_still(hits.near_origin, hits, light)
 
     def _as_if_still(self, points: Floats32, hits: Hits, light: Light) -> Floats32:

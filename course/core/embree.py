@@ -23,7 +23,7 @@ class EmbreeCaster:
         self._scene = EmbreeScene(robust=True)
         # Embree reads the mesh's arrays as long as the scene lives.
         self._mesh = TriangleMesh(self._scene, vertices, triangles)
-        # The first query builds the BVH, and must come from one thread: here is one, whose ray hits nothing.
+        # The first query builds the BVH, and must come from one thread: it is made here, with a ray that hits nothing.
         self._scene.run(*np.full((2, 1, 3), 4.0, np.float32), query="OCCLUDED")
 
     def nearest(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Intersections:

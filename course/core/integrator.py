@@ -195,7 +195,7 @@ class Integrator:
             path_radiance += radiance
             return
         for channel, values in zip(path_radiance, radiance, strict=True):
-            # `add.at` adds in the order of the rays, so the sum of a path depends on its own rays only.
+            # `add.at` adds in the order of the rays: other paths don't change the order and rounding of a path's sum.
             np.add.at(channel, path, values)
 
 

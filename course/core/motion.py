@@ -105,7 +105,7 @@ class MovingAccelerator:
     def _take(
         found: Intersections, other: Intersections, mover: Mover, which: Indices | None = None
     ) -> None:
-        """Put nearer hits ``other`` on a mover, of rays ``which`` (n,) or None for all, into ``found``."""
+        """Copy a mover's hits ``other``, all nearer, into ``found``; ``which`` (n,): their rays, None for all."""
         hit = np.flatnonzero(other.triangle >= 0)
         nearer = hit if which is None else which.take(hit)
         found.triangle[nearer] = other.triangle.take(hit) + np.int32(mover.first)

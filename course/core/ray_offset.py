@@ -3,8 +3,8 @@
 Symbols as in ``course.core.triangles``.
 
 The bulge. A coarse mesh with smooth normals stands for a round surface above its flat triangles. Near the terminator,
-shadow rays from the flat triangles hit neighbouring facets, and the mesh shows black teeth. So shadow rays start
-from the round surface, higher by
+some facets face away from a light that their shading normals face: their shadow rays hit the facets themselves, and
+the mesh shows black teeth. So these rays start from the round surface, higher by
 
     h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
 
@@ -37,8 +37,8 @@ tests/geometry/test_surface.py measures it.
 TILT, SLIVER, MOST = 0.5, 8.0, 1024.0
 """The offset of a triangle with longest edge L and height H is at least OFFSET L clip(TILT (L / H - SLIVER), 0, MOST).
 
-Embree computes the normal as a cross product of edges relative to the ray's origin. If these edges are nearly
-parallel, rounding tilts the normal. The hit's error in height is about 2^-24 L^2 / H.
+Embree subtracts the ray's origin from the corners; the normal is a cross product of the rounded edges. If these are
+nearly parallel, rounding tilts the normal. The hit's error in height is about 2^-24 L^2 / H.
 """
 
 INSET = 2.0

@@ -15,7 +15,7 @@ from course.core.tiles import Work, passes
 from course.core.tracer import Tracer
 
 Progress = Callable[[float, bool], None]
-"""Takes the fraction of the render that is done, in [0, 1], and a bool: if every pixel has a sample."""
+"""Takes the fraction of the render that is done, in [0, 1], and a bool: true if every pixel has a sample."""
 
 Tick = Callable[[int, int], None]
 """Called with the number of work items done, and with how many of them belong to the first pass."""

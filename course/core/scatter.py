@@ -76,7 +76,7 @@ class Scatter:
             return self._leaving(hits, weight, None, path, medium, depth, draws)
         boundary = self.boundary(hits, None, path, depth, draws)
         weight = weight + boundary.reflected
-        # Refraction also scales radiance by (n_to / n_from)^2. We leave it out: it cancels once a ray is outside again.
+        # Refraction also scales radiance by (n_from / n_to)^2. We leave it out: it cancels once a ray is outside again.
         through = np.repeat(boundary.refracted[None], 3, axis=0)
         if throughput is not None:
             weight, through = weight * throughput, through * throughput
@@ -93,7 +93,7 @@ class Scatter:
     def boundary(
         self, hits: Hits, which: Indices | None, path: Indices | None, depth: int, draws: Draws
     ) -> Boundary:
-        """Fresnel reflectance and refraction at hits (None: all). Rough glass draws random numbers for paths (m,)."""
+        """Fresnel reflectance and refraction at hits (None: all). A subclass draws numbers for paths (m,)."""
         assert self.index is not None
         material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
         if which is not None:
@@ -146,8 +146,8 @@ class Scatter:
     ) -> tuple[Floats32, Floats32]:
         """Origins and throughput, (3, m) each, of rays that leave hits ``which`` (m,).
 
-        The first ``near`` of these rays, a number, leave on the incoming side, the others on the far side. ``after``
-        (3, n) has the throughput of all hits after the bounce.
+        The first ``near`` of these rays leave on the incoming side, the others on the far side. ``after`` (3, n) has
+        the throughput of all hits after the bounce.
         """
         origin = hits.near_origin.take(which[:near], axis=1)
         if near < len(which):

@@ -76,9 +76,9 @@ def plan_dimensions(
     """Dimensions of the sampler for all random numbers.
 
     Dimensions 2 and 3 are stratified jointly with the pixel's (``course.extras.samplers.sobol``). They go to the
-    first of these that the scene uses: lens, time, gloss, lights. Gloss comes before lights: noise is more visible in
-    mirror images than in shadows. ``before_lights`` and ``after_lights`` are names and widths of further numbers that
-    a bounce draws.
+    first of these that the scene uses: lens, time, gloss, ``before_lights``, lights. Gloss comes before lights: noise
+    is more visible in mirror images than in shadows. ``before_lights`` and ``after_lights`` are names and widths of
+    further numbers that a bounce draws.
     """
     of_path = [("pixel", 2), ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
     gloss = ("gloss", max((lobe.width for lobe in world.lobes), default=0))
