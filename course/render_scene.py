@@ -12,8 +12,8 @@ from course import __version__
 from course.casters.choice import VARIABLE, chosen
 from course.compiled.library import available as packets_available
 from course.core.film import AnyFilm
-from course.core.render import Progress, Schedule
-from course.core.render import render as render_film
+from course.core.schedule import Progress, Schedule
+from course.core.schedule import render as render_film
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError

@@ -6,7 +6,7 @@ from typing import Any
 from course.adaptive.allocation import FIRST, FIRST_OF_NET
 from course.adaptive.film import AdaptiveFilm
 from course.adaptive.rounds import ADAPTABLE, Groups, render_adaptively
-from course.core.render import Executor, Run, Schedule
+from course.core.schedule import Executor, Run, Schedule
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from course.adaptive.corners import CornerFilm
-from course.core.render import Executor, Run, Schedule
+from course.core.schedule import Executor, Run, Schedule
 from course.core.tracer import Tracer
 from course.core.types import Floats32, Floats64, Indices, Mask
 from course.effects import Bound

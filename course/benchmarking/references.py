@@ -12,7 +12,7 @@ import numpy as np
 from course.atomic import make_folder, replacing
 from course.building.world import compile_scene
 from course.casters.choice import software
-from course.core.render import Progress
+from course.core.schedule import Progress
 from course.core.types import Floats32
 from course.effects import PACKAGE, Effects
 from course.errors import CourseError, SceneError

@@ -10,8 +10,8 @@ from course.building.frame import BRIGHTEST, Frame
 from course.core.environment import ConstantEnvironment, CubeEnvironment
 from course.core.types import Floats64
 from course.extras.conductors import Conductors
-from course.extras.highlights import Highlights
 from course.extras.materials import FullMaterials
+from course.extras.other_highlights import Highlights
 from course.extras.world import FullWorld
 from course.formats.yaml.description import MaterialDescription, ObjectLight, SceneDescription, rgb
 from course.formats.yaml.loading import Loaded

@@ -10,8 +10,8 @@ from course.core.lights.sample import TO_THE_LIGHT, Light
 from course.core.rays import Draws
 from course.core.types import Floats32, Indices
 from course.core.vectors import dot
-from course.extras.highlights import Highlights
 from course.extras.light_choice import WHERE, WHICH, LightChoice, some_of
+from course.extras.other_highlights import Highlights
 
 
 @dataclass(frozen=True)

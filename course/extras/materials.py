@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from course.core.materials import MaterialTable
 from course.core.types import Floats32
 from course.extras.conductors import Conductors
-from course.extras.highlights import Highlights
+from course.extras.other_highlights import Highlights
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from dataclasses import replace
 from typing import Any
 
 from course.core.rays import RAYS
-from course.core.render import Executor, UniformSchedule
 from course.core.samplers import Sampler
 from course.core.scene import Settings
+from course.core.schedule import Executor, UniformSchedule
 from course.core.tiles import PAGE, Tile, Work, pass_size, passes, spread_over_cache, tile_picture
 
 SHARES = 2

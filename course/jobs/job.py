@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from course.core.film import AnyFilm
-from course.core.render import Schedule
+from course.core.schedule import Schedule
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError, OutputError

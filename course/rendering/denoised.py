@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from course.core.render import Executor, Run
+from course.core.schedule import Executor, Run
 from course.core.tiles import Work
 from course.core.tracer import Tracer
 from course.core.types import Functions

@@ -13,7 +13,7 @@ from time import monotonic
 from course.core.counters import Counters
 from course.core.film import AnyFilm
 from course.core.integrator import CancelledError
-from course.core.render import Executor, Tick
+from course.core.schedule import Executor, Tick
 from course.core.tiles import Work
 from course.core.tracer import Tracer
 from course.core.types import Floats32

@@ -4,8 +4,8 @@ from dataclasses import replace
 from functools import partial
 
 from course.core.film import Film
-from course.core.render import Executor, Run, UniformSchedule
 from course.core.samplers import Sampler
+from course.core.schedule import Executor, Run, UniformSchedule
 from course.core.tiles import PASS, pass_size
 from course.core.tracer import Tracer
 from course.effects import Bound

@@ -59,7 +59,7 @@ def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_c
     assert (tmp_path / "box.png").exists()
     assert {"numpy", "embreex", "course"} <= roots(modules), "the list is the right one"
     assert not roots(modules) & NEVER
-    assert "course.core.render" in modules
+    assert "course.core.schedule" in modules
     assert not modules & OTHER_MODES
     # No random number is drawn, no mesh read, no EXR written.
     assert not modules & {
@@ -74,7 +74,7 @@ def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_c
 def test_what_a_key_asks_for_is_imported_for_scenes_that_have_it(tmp_path: Path, name: str) -> None:
     scene = str(ROOT / "scenes" / f"{name}.yaml")
     modules = imported(tmp_path, scene, "--spp", "1", "--size", "8x8")
-    assert "course.core.render" in modules
+    assert "course.core.schedule" in modules
     assert not modules & OF_A_KEY
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from course import CourseError, render
 from course.core.film import Film
-from course.core.render import Run, Schedule
-from course.core.render import render as render_film
+from course.core.schedule import Run, Schedule
+from course.core.schedule import render as render_film
 from course.core.tiles import Tile, Work
 from course.rendering.threads import Execution, ThreadedExecutor
 from tests.conftest import MakeScene
