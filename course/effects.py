@@ -28,8 +28,15 @@ CHECKOUT = (PACKAGE.parent / "pyproject.toml").is_file()
 PROJECT = PACKAGE.parent if CHECKOUT else PACKAGE.parent / "penumbra_course_files"
 """The folder of ``solutions``, ``scenes`` and ``docs``. A student's copy has no ``solutions``."""
 
-ASSIGNMENTS = (PROJECT if CHECKOUT else Path()) / "assignments"
-"""The functions that are to be written. An installed wheel has none: they are in the current folder."""
+
+
+def own_assignments() -> Path:
+    """The folder of the functions that are to be written: the current folder's, or the project's where it has none.
+
+    An installed wheel has none.
+    """
+    here = Path("assignments")
+    return here if here.is_dir() or not CHECKOUT else PROJECT / here
 
 
 def begin() -> str:
@@ -84,7 +91,7 @@ class Effects:
     def __init__(
         self, folder: str | Path | None = None, trusted: bool | None = None, *, filled: bool = False
     ) -> None:
-        if folder is None and not CHECKOUT and Path("assignments").is_dir():
+        if folder is None and Path("assignments").is_dir() and Path.cwd() != PROJECT:
             # In a folder made by `course start`.
             folder = "mine"
         elif folder is None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import click
 
-from course.effects import ASSIGNMENTS, CHECKOUT, begin
+from course.effects import CHECKOUT, begin, own_assignments
 from course.errors import CourseError
 from course.grading.errors import meant
 from course.modules import COURSE
@@ -130,7 +130,7 @@ def own_folder(_ctx: click.Context, _option: click.Parameter, folder: Path) -> P
 folder_option = click.option(
     "--folder",
     type=click.Path(path_type=Path, file_okay=False),
-    default=ASSIGNMENTS,
+    default=own_assignments,
     show_default="assignments",
     callback=own_folder,
     help="Where the modules are.",

@@ -12,13 +12,14 @@ from course.atomic import make_folder, write_text
 from course.cli.options import PATH
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
-from course.effects import ASSIGNMENTS, PROJECT
+from course.effects import CHECKOUT, PROJECT
 from course.errors import OutputError
 
 if TYPE_CHECKING:
     from course.grading.release.stubs import Stub
 
 SOLUTIONS = PROJECT / "solutions"
+ASSIGNMENTS = (PROJECT if CHECKOUT else Path()) / "assignments"
 
 SHOWN = 16
 """Lines of a difference that are printed; it is to be recognised, not to be read."""

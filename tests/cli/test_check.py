@@ -138,6 +138,16 @@ def test_an_untouched_stub_needs_no_words(run: Run, folder: Path) -> None:
     ]
 
 
+@pytest.mark.parametrize("command", ["check", "status"])
+def test_assignments_of_the_current_folder_come_before_the_checkouts(
+    run: Run, folder: Path, command: str
+) -> None:
+    # As in a folder of `course start`, whichever way the course is installed.
+    (folder / "motion_blur.py").write_text(SOLUTION, encoding="utf-8")
+    folder.rename(folder.with_name("assignments"))
+    assert "30 of 30 points" in run(command, "motion_blur").stdout
+
+
 def test_a_name_that_is_spelt_wrongly_is_pointed_out(run: Run, folder: Path) -> None:
     renamed = SOLUTION.replace("def displacement", "def displacment")
     (folder / "motion_blur.py").write_text(renamed, encoding="utf-8")

@@ -146,6 +146,17 @@ def test_a_folder_of_that_name_is_meant_first(
     assert not Effects("mine").mixed
 
 
+def test_assignments_of_the_current_folder_are_called_unless_it_is_the_projects(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(PROJECT)
+    assert Effects().folder == Path("solutions")
+    (tmp_path / "assignments").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert Effects().mixed
+    assert Effects().folder == Path("assignments")
+
+
 @pytest.fixture
 def unsolved(mine: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder to work in, where no solutions are."""
