@@ -23,7 +23,7 @@ from sitebuild.mistakes.catalog import look
 from sitebuild.mistakes.figures import Figure, draw
 from sitebuild.mistakes.look import SIZE
 from sitebuild.mistakes.plots import is_plot
-from sitebuild.quiz.apart import block_means, described, difference
+from sitebuild.quiz.apart import Trials, block_means, described, difference
 from sitebuild.quiz.asking import TRIALS, Plan, check, planned, question, titles
 
 ASKED = [module for module in COURSE if asked(module)]
@@ -121,8 +121,8 @@ def test_other_random_numbers_make_no_difference_but_another_density_does() -> N
     even, again, crowded = (
         [points(rng, kind) for _ in range(TRIALS)] for kind in (False, False, True)
     )
-    assert difference(even, again).alike
-    assert difference(even, crowded).apart
+    assert difference(Trials(even), Trials(again)).alike
+    assert difference(Trials(even), Trials(crowded)).apart
     # Pixel by pixel nothing tells them apart: the points are elsewhere each time.
     pixels = [block_means(each, 4) for each in (even[0], again[0], crowded[0])]
     alike, apart = (float(np.abs(pixels[0] - other).mean()) for other in pixels[1:])

@@ -58,14 +58,30 @@ class Difference:
         return self.ratio <= ALIKE
 
 
-def difference(one: Sequence[Image.Image], other: Sequence[Image.Image]) -> Difference:
-    """Compare two figures, each drawn several times with other random numbers; the first of each is what is shown."""
-    found = []
-    for size in BLOCKS:
-        ours, theirs = ([block_means(image, size) for image in images] for images in (one, other))
-        pairs = [*combinations(ours, 2), *combinations(theirs, 2)]
-        noise = max([_distance(a, b) for a, b in pairs], default=0.0)
-        found.append(Difference(_distance(ours[0], theirs[0]), max(noise, FAINTEST)))
+class Trials:
+    """A figure, drawn several times with other random numbers; the first of them is what is shown.
+
+    Attributes
+    ----------
+    shown : by size of block, its means as in ``block_means``
+    noise : by size of block, how far two of the drawings are apart at most
+    """
+
+    def __init__(self, images: Sequence[Image.Image]) -> None:
+        means = [[_means(codes, size) for size in BLOCKS] for codes in map(_codes, images)]
+        self.shown = means[0]
+        self.noise = [
+            max((_distance(a, b) for a, b in combinations(drawn, 2)), default=0.0)
+            for drawn in zip(*means, strict=True)
+        ]
+
+
+def difference(one: Trials, other: Trials) -> Difference:
+    """Compare two figures."""
+    found = [
+        Difference(_distance(a, b), max(*noises, FAINTEST))
+        for a, b, *noises in zip(one.shown, other.shown, one.noise, other.noise, strict=True)
+    ]
     return max(found, key=lambda each: each.ratio)
 
 
@@ -75,9 +91,16 @@ def _distance(one: Array, other: Array) -> float:
 
 def block_means(image: Image.Image, size: int) -> Array:
     """Means of a figure's blocks (rows, columns, 3), in codes, as it is on a page."""
-    width, height = SIZE
+    return _means(_codes(image), size)
+
+
+def _codes(image: Image.Image) -> Array:
     shown = image.convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
-    codes = np.asarray(shown, np.float64)
+    return np.asarray(shown, np.float64)
+
+
+def _means(codes: Array, size: int) -> Array:
+    width, height = SIZE
     blocks = codes.reshape(height // size, size, width // size, size, 3)
     means: Array = blocks.mean(axis=(1, 3))
     return means

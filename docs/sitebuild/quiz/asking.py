@@ -16,7 +16,7 @@ from course.quizzes.declared import RIGHT, Asked
 from course.quizzes.question import LETTERS, Choice, Question, Shown
 from sitebuild.mistakes.catalog import look, look_at
 from sitebuild.mistakes.figures import STUDIO, Figure
-from sitebuild.quiz.apart import Difference, described, difference
+from sitebuild.quiz.apart import Difference, Trials, described, difference
 
 TRIALS = 3
 """Drawings of a figure that random numbers have a say in."""
@@ -85,9 +85,10 @@ def drawn(figures: Iterable[Figure], kept: Path) -> dict[Figure, Image.Image]:
 
 def differences(plan: Plan, images: Images) -> dict[tuple[str, str], Difference]:
     """How far each two of the figures are apart."""
-    trials: dict[str, list[Image.Image]] = {name: [] for name in plan.named}
+    images_of: dict[str, list[Image.Image]] = {name: [] for name in plan.named}
     for figure in plan.figures:
-        trials[figure.name or RIGHT].append(images[figure])
+        images_of[figure.name or RIGHT].append(images[figure])
+    trials = {name: Trials(each) for name, each in images_of.items()}
     return {
         (one, other): difference(trials[one], trials[other])
         for one, other in combinations(plan.named, 2)
