@@ -29,7 +29,6 @@ PROJECT = PACKAGE.parent if CHECKOUT else PACKAGE.parent / "penumbra_course_file
 """The folder of ``solutions``, ``scenes`` and ``docs``. A student's copy has no ``solutions``."""
 
 
-
 def own_assignments() -> Path:
     """The folder of the functions that are to be written: the current folder's, or the project's where it has none.
 
