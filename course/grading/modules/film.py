@@ -123,7 +123,7 @@ LUMINANCE = function(
             "values",
             "Channels are weighted",
             _weighted,
-            "The weights stand in the task's text; channels are linear, as they came.",
+            "The docstring has the weights; channels are linear, as they came.",
             what="a luminance of",
             scales=SCALES,
             whole=True,
