@@ -41,7 +41,7 @@ STEPS = 3
 ABOUT = f"{SIZE[0]} x {SIZE[1]} pixels, {SAMPLES} samples, {THREADS} threads; of pixels, one sample each"
 TABLE = Path("out/bench/scaling.md")
 
-OURS, ALL, MITSUBA = "ours", "ours, all lights asked", "Mitsuba"
+OURS, ALL, MITSUBA = "ours", "ours, all lights sampled", "Mitsuba"
 MOST_ASKED = 100
 """Lights up to which all are asked; ten times as many would take ten times as long."""
 

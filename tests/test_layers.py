@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 COURSE = ROOT / "course"
 
-FLOORS = {
+LAYERS = {
     # The whole renderer for the six effects: it imports nothing else of the course.
     "core": 0,
     "casters": 1,
@@ -54,7 +54,7 @@ STRANGERS = {
     frozenset({"benchmarking", "grading"}),
     frozenset({"quizzes", "studio"}),
 }
-"""Neighbours on one floor that know nothing of each other."""
+"""Neighbours on one layer that know nothing of each other."""
 
 
 CORE_NEEDS = {"numpy", "embreex"}
@@ -113,8 +113,8 @@ def breaches(module: str, source: str) -> list[str]:
             found.append(f"{where}; the folder of effects is chosen when a scene is loaded")
         elif top == "course":
             there = part(name)
-            if FLOORS[there] > FLOORS[here]:
-                found.append(f"{where}, from floor {FLOORS[here]} up to floor {FLOORS[there]}")
+            if LAYERS[there] > LAYERS[here]:
+                found.append(f"{where}, from layer {LAYERS[here]} up to layer {LAYERS[there]}")
             elif frozenset({here, there}) in STRANGERS:
                 found.append(f"{where}; {here} and {there} stand side by side")
         elif here == "core" and top not in CORE_NEEDS and top not in sys.stdlib_module_names:
@@ -122,8 +122,8 @@ def breaches(module: str, source: str) -> list[str]:
     return found
 
 
-def test_every_file_of_the_course_has_a_floor() -> None:
-    assert {part(name) for name in NAMES} <= FLOORS.keys()
+def test_every_file_of_the_course_has_a_layer() -> None:
+    assert {part(name) for name in NAMES} <= LAYERS.keys()
 
 
 @pytest.mark.parametrize(("module", "path"), modules(), ids=[name for name, _ in modules()])
@@ -132,7 +132,7 @@ def test_imports_run_downwards_only(module: str, path: Path) -> None:
 
 
 def test_parts_never_import_each_other_in_a_circle() -> None:
-    uses: dict[str, set[str]] = {name: set() for name in FLOORS}
+    uses: dict[str, set[str]] = {name: set() for name in LAYERS}
     for module, path in modules():
         for _, name in imports(path.read_text(encoding="utf-8")):
             if name.partition(".")[0] == "course" and part(name) != part(module):
@@ -157,23 +157,23 @@ def test_one_file_knows_embree() -> None:
         (
             "course.formats.meshes.transforms",
             "import course.cli.main",
-            "from floor 3 up to floor 13",
+            "from layer 3 up to layer 13",
         ),
         (
             "course.formats.meshes.transforms",
             "def f():\n    from course.rendering import binding",
-            "up to floor 8",
+            "up to layer 8",
         ),
         (
             "course.core.vectors",
             "if TYPE_CHECKING:\n    from course.errors import CourseError",
-            "line 2: imports course.errors, from floor 0 up to floor 1",
+            "line 2: imports course.errors, from layer 0 up to layer 1",
         ),
-        ("course.formats.yaml.loading", "from course import render", "up to floor"),
+        ("course.formats.yaml.loading", "from course import render", "up to layer"),
         (
             "course.formats.yaml.loading",
             "import_module('course.rendering.binding')",
-            "up to floor 8",
+            "up to layer 8",
         ),
         ("course.compiled.surface", "import course.formats.meshes.ply", "stand side by side"),
         ("course.effects", "import solutions.supersampling", "chosen when a scene is loaded"),

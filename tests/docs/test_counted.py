@@ -1,4 +1,4 @@
-"""What pages count or list of the course is what the code has: modules, functions, floors, known submissions."""
+"""What pages count or list of the course is what the code has: modules, functions, layers, known submissions."""
 
 import re
 from collections.abc import Collection
@@ -10,7 +10,7 @@ from course.effects import PROJECT
 from course.grading.known import known
 from course.modules import COURSE, FURTHER, MODULES
 from course.signatures import CONTRACTS
-from tests.test_layers import FLOORS
+from tests.test_layers import LAYERS
 
 DOCS = PROJECT / "docs"
 
@@ -60,10 +60,10 @@ def test_the_site_lists_the_modules_in_their_order(caption: str, modules: Collec
         assert number(word) == len(modules)
 
 
-def test_the_floors_are_those_that_imports_are_held_to() -> None:
+def test_the_layers_are_those_that_imports_are_held_to() -> None:
     rows = re.findall(r"^\| (\d+) \| (.*?) \|", text_of(DOCS / "architecture.md"), re.MULTILINE)
-    told = {name: int(floor) for floor, names in rows for name in re.findall(r"`(\w+)`", names)}
-    assert told == {name: floor for name, floor in FLOORS.items() if not name.startswith("__")}
+    told = {name: int(layer) for layer, names in rows for name in re.findall(r"`(\w+)`", names)}
+    assert told == {name: layer for name, layer in LAYERS.items() if not name.startswith("__")}
 
 
 def test_every_function_of_the_course_is_counted() -> None:

@@ -89,8 +89,8 @@ def test_both_pages_say_the_same() -> None:
         r"within 1% of convergence, the means agree to 1%, and the squares to 2%\. They are off by N% and N%",
     )
     numbers = accuracy(
-        r"the mean of `scenes/radiosity\.yaml` is N% from the mean of traced paths, and squares of 8 by 8 pixels "
-        r"differ by N% of it, root mean square\. Within 0\.1% they are N% and N%\."
+        r"the mean of `scenes/radiosity\.yaml` differs from that of path tracing by N%, and squares of 8 by 8 pixels "
+        r"by N% of the mean \(root mean square\)\. Within 0\.1% of convergence, these are N% and N%\."
     )
     assert numbers == (mean, rms, *(text.rstrip("%") for text in rows[PATCHES]))
     # The bound that is stated holds for what was measured.
@@ -110,7 +110,7 @@ def test_the_records_of_the_accuracy_page() -> None:
     assert (int(batches), int(samples)) == (effort.batches, effort.samples)
     assert int(side) == BLOCK
     count, largest, mean = accuracy(
-        r"Of the N blocks and channels the largest \$\|t\|\$ is N; .*? means differ by N%\."
+        r"That gives N values, one for each block and channel; the largest \$\|t\|\$ is N\. .*? means differ by N%\."
     )
     assert int(count) == 3 * (effort.size[0] // BLOCK) * (effort.size[1] // BLOCK)
     found = figures("path_tracing")
@@ -122,16 +122,18 @@ def test_the_tolerances_that_are_named_are_the_tests_own() -> None:
     """The sentences name test files; what they hold to stands there."""
     tests = PROJECT / "tests"
     paths = (tests / "transport" / "test_path_tracing.py").read_text(encoding="utf-8")
-    accuracy(r"holds all pixels to one part in N, for")
+    accuracy(r"requires this of all pixels to one part in N, for")
     assert "np.allclose(render(scene).linear, 1 / (1 - reflectance), rtol=1e-5)" in paths
     solving = (tests / "radiosity" / "test_solving.py").read_text(encoding="utf-8")
-    accuracy(r"holds gathering to N% and N%, and shooting to N% in the mean")
+    accuracy(
+        r"requires this of gathering to N% in the room and to N% in the sphere, and of shooting to N% in the mean"
+    )
     assert "light / (1 - 0.5), rtol=1e-4)" in solving
     assert "2 / (1 - reflectance), rtol=2e-5)" in solving
     assert "pytest.approx(2 / (1 - reflectance), rel=1e-3)" in solving
     viewing = (tests / "radiosity" / "test_viewing.py").read_text(encoding="utf-8")
-    patches, mean, rms = accuracy(
-        r"`tests/radiosity/test_viewing\.py` holds N patches to N% and N%"
+    mean, rms, patches = accuracy(
+        r"`tests/radiosity/test_viewing\.py` allows N% and N% for N patches"
     )
     assert f"patches={int(value(patches))}," in viewing
     assert f"rel={value(mean) / 100:g})" in viewing
