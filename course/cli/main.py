@@ -14,6 +14,7 @@ import warnings
 from contextlib import suppress
 from importlib import import_module
 from io import TextIOWrapper
+from pathlib import Path
 from typing import TextIO
 
 import click
@@ -91,6 +92,12 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> object:
         """Run a command; what the user can mend becomes a message, anything else is a defect."""
         try:
+            Path.cwd()
+        except OSError:
+            raise Refusal(
+                "the current folder is gone or can't be read: go to another one"
+            ) from None
+        try:
             with warnings.catch_warnings():
                 warnings.simplefilter("always", CourseWarning)
                 warnings.showwarning = _told
@@ -104,12 +111,16 @@ class Commands(click.Group):
         except (CourseError, NotImplementedError) as error:
             raise Refusal(str(error)) from error
         except OSError as error:
-            # Of folders and outputs; whatever is read tells of such a name by itself.
-            if error.errno != errno.ENAMETOOLONG:
+            # Who reads no further wants no more; click ends in silence then.
+            if error.errno in (None, errno.EPIPE):
                 raise
-            raise Refusal(
-                f"a name is too long for a file: {str(error.filename)[:80]}..."
-            ) from error
+            # Of folders and outputs; whatever is read tells of such a name by itself.
+            if error.errno == errno.ENAMETOOLONG:
+                told = f"a name is too long for a file: {str(error.filename)[:80]}..."
+            else:
+                named = f"{error.filename}: " if error.filename else ""
+                told = f"{named}{str(error.strerror).lower()}"
+            raise Refusal(told) from error
         except MemoryError as error:
             raise Refusal(f"not enough memory: {error}".removesuffix(": ")) from error
         except KeyboardInterrupt:
@@ -145,6 +156,7 @@ def commands() -> None:
 
 def main() -> None:
     """Run the command line of this process."""
+    _open_closed_streams()
     if isinstance(sys.stdout, TextIOWrapper):
         # A title in Greek must not end a render on a console that can't show it.
         sys.stdout.reconfigure(errors="replace")
@@ -156,6 +168,15 @@ def main() -> None:
     except SystemExit as ended:
         _leave(ended.code or 0)
         raise
+
+
+def _open_closed_streams() -> None:
+    """Read from and write to nowhere where the shell has closed a stream: another file would get its number."""
+    for name in ("stdin", "stdout", "stderr"):
+        if getattr(sys, name) is None:
+            nowhere = os.open(os.devnull, os.O_RDWR)
+            os.set_inheritable(nowhere, True)
+            setattr(sys, name, os.fdopen(nowhere, "r" if name == "stdin" else "w"))
 
 
 def _leave(code: str | int) -> None:

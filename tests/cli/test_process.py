@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 from PIL import Image
 
 from course.cli.main import COMMANDS
+from course.effects import PROJECT
 from course.formats.pictures.reading import read_picture
 from tests.cli.conftest import Run
 from tests.cli.signalled import interrupted, started
@@ -76,6 +78,22 @@ def test_a_module_run_is_the_command(tmp_path: Path) -> None:
     done = course(tmp_path, "--version")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("course, version 0.")
+
+
+def test_a_folder_that_is_gone_is_told(run: Run, tmp_path: Path) -> None:
+    tmp_path.rmdir()
+    result = run("status")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("error: the current folder is gone")
+    assert result.stderr.count("\n") == 1
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell of Unix closes streams")
+def test_streams_that_are_closed_are_nobodys(tmp_path: Path) -> None:
+    # As a service may be started. Pipes of workers had had the numbers of standard streams.
+    shutil.copytree(PROJECT / "solutions", tmp_path / "assignments")
+    check = f"exec '{sys.executable}' -m course check motion_blur --only displacement"
+    subprocess.run(["sh", "-c", f"{check} <&- >&- 2>&-"], cwd=tmp_path, check=True)
 
 
 def test_a_scene_becomes_a_png_and_an_exr_of_its_size(tmp_path: Path, scene: Path) -> None:

@@ -125,6 +125,8 @@ def test_the_limits_of_the_options_are_allowed(run: Run) -> None:
         (NotImplementedError("thin_lens.lens_rays: not written yet"), "not written yet"),
         (MemoryError(), "not enough memory"),
         (MemoryError("3 TB"), "not enough memory: 3 TB"),
+        (PermissionError(errno.EACCES, "Permission denied", "/a.ply"), "/a.ply: permission denied"),
+        (OSError(errno.ENOSPC, "No space left on device"), "error: no space left on device"),
         (OSError(errno.ENAMETOOLONG, "", "x" * 300), f"too long for a file: {'x' * 80}..."),
     ],
 )
