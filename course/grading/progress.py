@@ -13,6 +13,7 @@ from typing import Any
 from course import __version__
 from course.atomic import write_text
 from course.effects import PACKAGE
+from course.errors import OutputError
 from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.report import FunctionResults, docs_page, findings, grouped, reproduce
@@ -160,7 +161,7 @@ def _write(path: Path, modules: dict[str, Any]) -> None:
         path.parent.mkdir(exist_ok=True)
         write_text(path.parent / ".gitignore", "*\n")
         write_text(path, json.dumps({"checks": _checks(), "modules": modules}))
-    except OSError:
+    except (OSError, OutputError):
         # A folder that can't be written to is checked each time.
         return
 

@@ -109,3 +109,9 @@ def test_a_folder_that_is_not_there_is_told(tmp_path: Path) -> None:
     result = CliRunner().invoke(commands, ["status", "--folder", str(tmp_path / "no")])
     assert result.exit_code == 1
     assert "no such folder" in result.stderr
+
+
+def test_what_cannot_be_kept_is_checked_each_time(folder: Path) -> None:
+    # As where another user's status was the first.
+    (folder / KEPT).mkdir(parents=True)
+    assert "motion_blur  done" in status(folder)

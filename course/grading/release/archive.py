@@ -5,9 +5,11 @@ afresh, so that no half-written assignment of the author is handed out, and so a
 where no solutions are. The finished archive is searched for every line of every solution before it gets its name.
 """
 
+import shutil
 import tempfile
 import zipfile
 from collections.abc import Container, Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from course.atomic import replacing
@@ -169,7 +171,14 @@ def write_folder(contents: Mapping[str, bytes], out: Path) -> int:
             path.write_bytes(content)
             if content.startswith(_SCRIPT):
                 path.chmod(0o755)
-    except OSError as error:
+    except BaseException as error:
+        # What is half there would be taken for whole, and the next attempt refused because of it.
+        for top in {out / Path(name).parts[0] for name in contents}:
+            shutil.rmtree(top, ignore_errors=True)
+            with suppress(OSError):
+                top.unlink()
+        if not isinstance(error, OSError):
+            raise
         raise OutputError(f"{out}: can't be written: {error.strerror}") from error
     return len(contents)
 

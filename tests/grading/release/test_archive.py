@@ -3,6 +3,7 @@
 import re
 import shutil
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ from course.grading.release.archive import (
     archive_contents,
     solution_lines,
     write_archive,
+    write_folder,
 )
 from course.modules import COURSE
 from tests.grading.lent import ReferencesFile
@@ -191,3 +193,19 @@ def test_the_built_site_is_put_in_and_searched(
     (site / "index.html").unlink()
     with pytest.raises(CourseError, match=r"no index\.html there"):
         write_archive(ROOT, tmp_path / "none", site)
+
+
+def test_a_folder_that_cannot_be_filled_is_empty_again(tmp_path: Path) -> None:
+    class Late(dict[str, bytes]):
+        """Interrupted once the first files are written."""
+
+        def items(self) -> Iterator[tuple[str, bytes]]:  # type: ignore[override]
+            yield from super().items()
+            raise KeyboardInterrupt
+
+    contents = {"README.md": b"text", "docs/guides/start.md": b"text"}
+    with pytest.raises(KeyboardInterrupt):
+        write_folder(Late(contents), tmp_path)
+    with pytest.raises(OutputError):
+        write_folder(contents | {"README.md/under": b"a file"}, tmp_path)
+    assert write_folder(contents, tmp_path) == 2
