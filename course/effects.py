@@ -6,6 +6,7 @@ function of it is asked for. A scene that doesn't use an effect never imports it
 
 import ast
 import os
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable
@@ -27,6 +28,12 @@ CHECKOUT = (PACKAGE.parent / "pyproject.toml").is_file()
 
 PROJECT = PACKAGE.parent if CHECKOUT else PACKAGE.parent / "penumbra_course_files"
 """The folder of ``solutions``, ``scenes`` and ``docs``. A student's copy has no ``solutions``."""
+
+
+def environment_apart() -> dict[str, str]:
+    """The environment of a Python process that imports what this one does, and no `random.py` of the current folder."""
+    path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
+    return {**os.environ, "PYTHONPATH": path, "PYTHONSAFEPATH": "1"}
 
 
 def own_assignments() -> Path:
@@ -155,7 +162,14 @@ class Effects:
         """True if the folder has the function, and its last word isn't that it is not written yet."""
         if module not in self._written:
             file = self.folder / f"{module}.py"
-            self._written[module] = written_functions(file) if file.is_file() else frozenset()
+            there = file.is_file()
+            self._written[module] = written_functions(file) if there else frozenset()
+            if self.mixed and not there and (near := _misnamed(file)):
+                warnings.warn(
+                    f"{file} is missing, so its functions count as not written; is it {near}?",
+                    CourseWarning,
+                    stacklevel=2,
+                )
         return name in self._written[module]
 
     @property
@@ -243,6 +257,16 @@ def written_functions(file: Path) -> frozenset[str]:
         elif isinstance(node, ast.Assign):
             names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
     return frozenset(names)
+
+
+def _misnamed(file: Path) -> Path | None:
+    """A file beside a missing one, or in a folder there, that begins with its name: a copy, or one in capitals."""
+    letters = re.compile("[^a-z]")
+    name = letters.sub("", file.stem)
+    others = sorted([*file.parent.glob("*.*"), *file.parent.glob("[!_.]*/*.py")])
+    near = (one for one in others if letters.sub("", one.name.lower()).startswith(name))
+    others_own = COURSE.keys() - {file.stem}
+    return next((one for one in near if one.stem not in others_own and one.is_file()), None)
 
 
 def _defines(file: Path, name: str) -> bool:

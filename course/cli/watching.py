@@ -10,6 +10,8 @@ from typing import NoReturn
 
 import click
 
+from course.effects import environment_apart
+
 POLL = 0.4
 """Seconds between two looks at the files."""
 
@@ -82,7 +84,9 @@ def _prepared(arguments: Sequence[str]) -> subprocess.Popen[bytes]:
     """A process that has imported what takes long, and waits."""
     # Without bytecode: what is saved within the second in which it was compiled would be taken for the same.
     return subprocess.Popen(
-        [sys.executable, "-B", "-c", PROGRAM, *arguments], stdin=subprocess.PIPE
+        [sys.executable, "-B", "-c", PROGRAM, *arguments],
+        stdin=subprocess.PIPE,
+        env=environment_apart(),
     )
 
 

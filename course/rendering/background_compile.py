@@ -19,7 +19,7 @@ from typing import Any
 from course.core.counters import Counters
 from course.core.tiles import Tile, pass_size
 from course.core.tracer import Tracer
-from course.effects import PACKAGE, PROJECT, Effects, NothingWritten
+from course.effects import PROJECT, Effects, NothingWritten, environment_apart
 from course.errors import CourseError
 from course.modules import COURSE
 from course.rendering.threads import Pool
@@ -254,13 +254,12 @@ def _started(task: tuple[Any, ...]) -> subprocess.Popen[bytes] | None:
         del _COMPILING[known]
     if _COMPILING:
         return _COMPILING.get(asked)
-    path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
     process = subprocess.Popen(
         [sys.executable, "-m", MODULE],
         stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
-        env={**os.environ, "PYTHONPATH": path},
+        env=environment_apart(),
         # Ctrl-C ends the picture; what is compiled is for the next one, too. In a session of its own the process
         # would be no guest: Linux shares processors between sessions first, and only then by niceness.
         process_group=0,

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from course.effects import PACKAGE
+from course.effects import environment_apart
 from course.grading.worker.limits import end_tree
 
 NICE = 10
@@ -41,7 +41,6 @@ class Checker:
     def check(self, modules: Sequence[str]) -> None:
         """Check these modules, and end what is being checked."""
         self.close()
-        path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
         self._process = subprocess.Popen(
             [sys.executable, "-m", "course.studio.checking", str(self._folder), *modules],
             stdin=subprocess.DEVNULL,
@@ -49,7 +48,7 @@ class Checker:
             stderr=subprocess.DEVNULL,
             text=True,
             encoding="utf-8",
-            env={**os.environ, "PYTHONPATH": path},
+            env=environment_apart(),
             process_group=0 if os.name == "posix" else None,
         )
         if os.name == "posix":

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable
 from typing import IO, Any
 
-from course.effects import PACKAGE
+from course.effects import environment_apart
 from course.grading.worker.limits import Budget, Limits, end_tree
 from course.studio.messages import Channel, messages
 
@@ -43,13 +43,12 @@ class Worker:
         self._event = event
         self._why = ""
         self.printed = ""
-        path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
         self._process = subprocess.Popen(
             [sys.executable, "-m", PROGRAM],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            env={**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1"},
+            env=environment_apart() | {"PYTHONUNBUFFERED": "1"},
             # Ctrl-C is for the studio, which ends its processes.
             process_group=0 if os.name == "posix" else None,
         )

@@ -2,6 +2,8 @@
 
 import json
 import shutil
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 from typing import Any
@@ -14,7 +16,8 @@ from PIL import Image
 from course import EffectError, load_scene, pixel, render
 from course.cli.main import commands
 from course.core.types import Floats32
-from course.effects import PROJECT, Effects, written_functions
+from course.effects import PROJECT, Effects, environment_apart, written_functions
+from course.errors import CourseWarning
 from course.modules import COURSE
 from course.scene.scene import load_variant
 from course.signatures import CONTRACTS
@@ -247,3 +250,40 @@ def test_a_name_that_is_spelt_wrongly_is_pointed_out(tmp_path: Path, name: str) 
         effects.function("soft_shadows", "point_on_sphere")
     assert bool(told) == (name != "helper")
     assert all("has no point_on_sphere, and a point_on_spehre" in str(one.message) for one in told)
+
+
+@pytest.mark.parametrize(
+    "name", ["Glossy.py", "glossy (copy).py", "glossy.py.txt", "week 3/glossy.py"]
+)
+def test_a_file_that_is_missing_is_told_with_the_one_that_may_be_meant(
+    mine: Path, name: str
+) -> None:
+    (mine / name).parent.mkdir(exist_ok=True)
+    (mine / "glossy.py").rename(mine / name)
+    with pytest.warns(
+        CourseWarning, match="missing, so its functions count as not written"
+    ) as told:
+        Effects("mine").function("glossy", "sample_phong_lobe")
+    assert len(told) == 1
+    assert str(told[0].message).endswith(f"is it {Path('assignments', name)}?")
+
+
+def test_a_copy_beside_a_file_is_no_matter(mine: Path) -> None:
+    shutil.copy(mine / "glossy.py", mine / "glossy_old.py")
+    (mine / "film.py").unlink()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", CourseWarning)
+        assert Effects("mine").written("glossy", "sample_phong_lobe")
+        assert not Effects("mine").written("film", "reinhard")
+
+
+def test_a_process_apart_imports_nothing_of_the_current_folder(tmp_path: Path) -> None:
+    (tmp_path / "random.py").write_text("raise SystemExit(1)", encoding="utf-8")
+    for program in (["-c", "import random, course"], ["-m", "random"]):
+        subprocess.run(
+            [sys.executable, *program],
+            cwd=tmp_path,
+            env=environment_apart(),
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
