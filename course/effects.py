@@ -39,10 +39,10 @@ def environment_apart() -> dict[str, str]:
 def own_assignments() -> Path:
     """The folder of the functions that are to be written: the current folder's, or the project's where it has none.
 
-    An installed wheel has none.
+    An installed wheel has none, and near a folder of `course start` the project's aren't meant.
     """
     here = Path("assignments")
-    return here if here.is_dir() or not CHECKOUT else PROJECT / here
+    return here if here.is_dir() or not CHECKOUT or _way() else PROJECT / here
 
 
 def begin() -> str:
@@ -51,12 +51,18 @@ def begin() -> str:
 
 
 def _way() -> str:
-    """The way to a folder of `course start` above or below the current one; empty where there is none."""
+    """The way to a folder of `course start` above or below the current one; empty where there is none.
+
+    So it is where the project itself is one of them.
+    """
     here = Path.cwd()
     above = [folder for folder in here.parents[:3] if (folder / "assignments").is_dir()]
     below = sorted(folder.parent for folder in here.glob("*/assignments") if folder.is_dir())
+    near = above[:1] or [here / folder for folder in below]
+    if CHECKOUT and PROJECT in (here, *near):
+        return ""
     # A blank in a name has to be quoted in every shell.
-    names = [os.path.relpath(folder) for folder in (above[:1] or below[:3])]
+    names = [os.path.relpath(folder) for folder in near[:3]]
     ways = [f'`cd "{name}"`' if " " in name else f"`cd {name}`" for name in names]
     return f"{' or '.join(ways)} goes to your course" if ways else ""
 
@@ -103,7 +109,7 @@ class Effects:
         elif folder is None:
             # A student's copy has no solutions.
             folder = "solutions" if (PROJECT / "solutions").is_dir() else "mine"
-            if not CHECKOUT and (way := _way()):
+            if way := _way():
                 warnings.warn(
                     f"no folder assignments here, so all functions are the course's: {way}",
                     CourseWarning,
@@ -112,16 +118,19 @@ class Effects:
         path = Path(folder)
         self._rest: Effects | None = None
         self._stands_in = False
-        if str(folder) == "mine" and not path.is_dir():
+        # A folder of `course start` may have that name; its functions are deeper.
+        if str(folder) == "mine" and (not path.is_dir() or (path / "assignments").is_dir()):
             folder, path, filled = "assignments", Path("assignments"), True
         if filled:
             if (PROJECT / "solutions").is_dir():
                 self._rest = Effects("solutions")
             else:
                 self._stands_in = True
-        if str(folder) in ("solutions", "assignments") and not path.is_dir():
+        if str(folder) == "assignments":
+            path = own_assignments()
+        elif str(folder) == "solutions" and not path.is_dir():
             path = PROJECT / path
-        if str(folder) == "assignments" and not path.is_dir() and not CHECKOUT:
+        if str(folder) == "assignments" and not path.is_dir():
             raise EffectError(f"no folder assignments here; {begin()}")
         # Path.is_dir raises an error of its own for a name that is too long.
         if not os.path.isdir(path):  # noqa: PTH112

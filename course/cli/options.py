@@ -122,7 +122,7 @@ modules_argument = click.argument("modules", nargs=-1, metavar="[MODULE]...", ca
 def own_folder(_ctx: click.Context, _option: click.Parameter, folder: Path) -> Path:
     """Return the folder of one's own modules, which must be there."""
     if not folder.is_dir():
-        remedy = "" if CHECKOUT else f", {begin()}"
+        remedy = "" if CHECKOUT and folder != Path("assignments") else f", {begin()}"
         raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
     return folder
 

@@ -5,8 +5,9 @@ from html import unescape
 from pathlib import Path
 
 import pytest
-from click.testing import Result
+from click.testing import CliRunner, Result
 
+from course.cli.main import commands
 from course.cli.options import FAILED
 from course.effects import PROJECT
 from course.grading.known import known as known_submissions
@@ -146,6 +147,21 @@ def test_assignments_of_the_current_folder_come_before_the_checkouts(
     (folder / "motion_blur.py").write_text(SOLUTION, encoding="utf-8")
     folder.rename(folder.with_name("assignments"))
     assert "30 of 30 points" in run(command, "motion_blur").stdout
+
+
+@pytest.mark.parametrize("command", ["check", "status", "render"])
+def test_no_other_assignments_are_taken_below_or_above_ones_own(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: str
+) -> None:
+    (tmp_path / "mine" / "assignments").mkdir(parents=True)
+    given = [PROJECT / "scenes" / "motion_blur.yaml"] if command == "render" else ["motion_blur"]
+    effects = ["--effects", "mine"] if command == "render" else []
+    above = run(command, *given, *effects)
+    monkeypatch.chdir(tmp_path / "mine" / "assignments")
+    below = CliRunner().invoke(commands, [command, *map(str, given), *effects])
+    assert (above.exit_code, below.exit_code) == (1, 1)
+    assert "`cd mine` goes to your course" in above.stderr
+    assert "`cd ..` goes to your course" in below.stderr
 
 
 def test_a_name_that_is_spelt_wrongly_is_pointed_out(run: Run, folder: Path) -> None:
