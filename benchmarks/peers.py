@@ -58,6 +58,7 @@ from course.effects import PROJECT
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import load_description
 from course.formats.yaml.overriding import Overrides
+from course.processes import environment_apart
 from course.scene.scene import load_variant
 
 MITSUBA_COUNTS = (4, *SAMPLES)
@@ -417,9 +418,8 @@ def write_variant(scene: Scene, folder: Path) -> Path:
 
 def run_module(arguments: list[str]) -> None:
     """A Python process of its own."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(PROJECT), *sys.path])}
     subprocess.run(
-        [sys.executable, "-m", *arguments], check=True, capture_output=True, env=environment
+        [sys.executable, "-m", *arguments], check=True, capture_output=True, env=environment_apart()
     )
 
 

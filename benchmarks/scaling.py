@@ -7,7 +7,6 @@ hit; ours asks all of up to 64, and as ``ALL`` any number.
 """
 
 import json
-import os
 import resource
 import subprocess
 import sys
@@ -32,7 +31,7 @@ from course.benchmarking.documents import replace_marked
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Table
 from course.compiled.library import available
-from course.effects import PROJECT
+from course.processes import environment_apart
 
 SIZE, SAMPLES, THREADS = (200, 150), 16, 2
 STEPS = 3
@@ -208,7 +207,7 @@ def _process(name: str, count: int, program: str) -> Point:
             [sys.executable, "-m", "benchmarks.scaling", *arguments],
             capture_output=True,
             check=True,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join([str(PROJECT), *sys.path])},
+            env=environment_apart(),
         )
     return Point(count, **json.loads(done.stdout.splitlines()[-1]))
 

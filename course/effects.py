@@ -18,7 +18,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from course.errors import CourseWarning, EffectError, Ended
-from course.modules import COURSE
+from course.modules import COURSE, meant
 
 PACKAGE = Path(__file__).resolve().parent
 """The package ``course``."""
@@ -28,12 +28,6 @@ CHECKOUT = (PACKAGE.parent / "pyproject.toml").is_file()
 
 PROJECT = PACKAGE.parent if CHECKOUT else PACKAGE.parent / "penumbra_course_files"
 """The folder of ``solutions``, ``scenes`` and ``docs``. A student's copy has no ``solutions``."""
-
-
-def environment_apart() -> dict[str, str]:
-    """The environment of a Python process that imports what this one does, and no `random.py` of the current folder."""
-    path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
-    return {**os.environ, "PYTHONPATH": path, "PYTHONSAFEPATH": "1"}
 
 
 def own_assignments() -> Path:
@@ -92,10 +86,10 @@ class Effects:
 
     Parameters
     ----------
-    folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders, and ``mine`` means
-        the assignments, with the solution's function in the place of each that is not written; where there are no
-        solutions, with a stand-in that switches its effect off. None means ``mine`` in a folder made by `course start`
-        and in a student's copy, else the solutions.
+    folder : where the modules are; ``solutions`` and ``assignments`` mean the current folder's or else the project's
+        (see ``own_assignments``), and ``mine`` means the assignments, with the solution's function in the place of each
+        that is not written; where there are no solutions, with a stand-in that switches its effect off. None means
+        ``mine`` in a folder made by `course start` and in a student's copy, else the solutions.
     filled : whether what another folder hasn't written is replaced, as ``mine`` has it
     trusted : whether what the functions return is taken as it is; None means the project's own solutions, and no others
     """
@@ -120,7 +114,7 @@ class Effects:
         self._stands_in = False
         # A folder of `course start` may have that name; its functions are deeper.
         if str(folder) == "mine" and (not path.is_dir() or (path / "assignments").is_dir()):
-            folder, path, filled = "assignments", Path("assignments"), True
+            folder, filled = "assignments", True
         if filled:
             if (PROJECT / "solutions").is_dir():
                 self._rest = Effects("solutions")
@@ -128,10 +122,10 @@ class Effects:
                 self._stands_in = True
         if str(folder) == "assignments":
             path = own_assignments()
+            if not path.is_dir():
+                raise EffectError(f"no folder assignments here; {begin()}")
         elif str(folder) == "solutions" and not path.is_dir():
             path = PROJECT / path
-        if str(folder) == "assignments" and not path.is_dir():
-            raise EffectError(f"no folder assignments here; {begin()}")
         # Path.is_dir raises an error of its own for a name that is too long.
         if not os.path.isdir(path):  # noqa: PTH112
             raise EffectError(
@@ -173,7 +167,7 @@ class Effects:
             file = self.folder / f"{module}.py"
             there = file.is_file()
             self._written[module] = written_functions(file) if there else frozenset()
-            if self.mixed and not there and (near := _misnamed(file)):
+            if self.mixed and not there and (near := misnamed(file)):
                 warnings.warn(
                     f"{file} is missing, so its functions count as not written; is it {near}?",
                     CourseWarning,
@@ -268,14 +262,19 @@ def written_functions(file: Path) -> frozenset[str]:
     return frozenset(names)
 
 
-def _misnamed(file: Path) -> Path | None:
-    """A file beside a missing one, or in a folder there, that begins with its name: a copy, or one in capitals."""
+def misnamed(file: Path) -> Path | None:
+    """The file that may be meant by a missing one: a copy or one in capitals, there or in a folder there, or a slip."""
     letters = re.compile("[^a-z]")
     name = letters.sub("", file.stem)
-    others = sorted([*file.parent.glob("*.*"), *file.parent.glob("[!_.]*/*.py")])
-    near = (one for one in others if letters.sub("", one.name.lower()).startswith(name))
     others_own = COURSE.keys() - {file.stem}
-    return next((one for one in near if one.stem not in others_own and one.is_file()), None)
+    others = [
+        other
+        for other in sorted([*file.parent.glob("*.py*"), *file.parent.glob("[!_.]*/*.py")])
+        if other.stem not in others_own and other.is_file()
+    ]
+    begun = (other for other in others if letters.sub("", other.name.lower()).startswith(name))
+    alike = meant(file.stem, (other.stem for other in others))
+    return next(begun, None) or next((other for other in others if other.stem == alike), None)
 
 
 def _defines(file: Path, name: str) -> bool:

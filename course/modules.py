@@ -1,5 +1,8 @@
 """Every module of the course, and the functions that students write in it."""
 
+from collections.abc import Iterable
+from difflib import get_close_matches
+
 
 def _named(functions: dict[str, str]) -> dict[str, tuple[str, ...]]:
     return {module: tuple(names.split()) for module, names in functions.items()}
@@ -48,3 +51,11 @@ WARM_UP = "sampling"
 
 TAUGHT = {WARM_UP: COURSE[WARM_UP]} | COURSE
 """The same in the order in which they are taught."""
+
+ALIKE = 0.75
+"""How alike two names must be for one to be meant by the other; from 0 to 1, by difflib."""
+
+
+def meant(name: str, others: Iterable[str]) -> str:
+    """Which of the other names may be meant by this one; empty for none."""
+    return next(iter(get_close_matches(name, list(others), 1, ALIKE)), "")

@@ -21,6 +21,7 @@ LAYERS = {
     "effects": 1,
     "inputs": 1,
     "modules": 1,
+    "processes": 1,
     "stand_ins": 1,
     "atomic": 1,
     "extras": 2,

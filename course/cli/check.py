@@ -18,7 +18,7 @@ from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.cli.watching import await_change, times
 from course.errors import CourseError
-from course.grading.errors import meant
+from course.modules import meant
 
 if TYPE_CHECKING:
     from course.grading.checks.check import Check, References

@@ -83,7 +83,7 @@ class Commands(click.Group):
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
-            from course.grading.errors import meant
+            from course.modules import meant
 
             if not (near := meant(args[0], COMMANDS)):
                 raise

@@ -13,8 +13,7 @@ import click
 
 from course.effects import CHECKOUT, begin, own_assignments
 from course.errors import CourseError
-from course.grading.errors import meant
-from course.modules import COURSE
+from course.modules import COURSE, meant
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells have it."""

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 import click
 
-from course.effects import environment_apart
+from course.processes import environment_apart
 
 POLL = 0.4
 """Seconds between two looks at the files."""

@@ -1,8 +1,6 @@
 """Errors of student code: each is a result of grading, not a fault of the grader."""
 
 import re
-from collections.abc import Iterable
-from difflib import get_close_matches
 from typing import Literal
 
 from course.errors import CourseError
@@ -10,15 +8,6 @@ from course.errors import CourseError
 Trouble = Literal[
     "not written", "missing", "raised", "bad value", "timeout", "crashed", "not loaded"
 ]
-
-
-ALIKE = 0.75
-"""How alike two names must be for one to be meant by the other; from 0 to 1, by difflib."""
-
-
-def meant(name: str, others: Iterable[str]) -> str:
-    """Which of the other names may be meant by this one; empty for none."""
-    return next(iter(get_close_matches(name, list(others), 1, ALIKE)), "")
 
 
 class StudentError(CourseError):

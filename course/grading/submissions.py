@@ -9,8 +9,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from course.effects import misnamed
 from course.errors import CourseError
-from course.grading.errors import StudentError, meant
+from course.grading.errors import StudentError
 from course.inputs import Bound, opened
 from course.modules import COURSE
 
@@ -37,19 +38,12 @@ def why_absent(
     """
     path = Path(f"{module}.py") if folder is None else folder / f"{module}.py"
     if source is None:
-        return StudentError(
-            "missing", f"{path} is missing{_meant(module, folder)}", module_wide=True
-        )
+        near = None if folder is None else misnamed(path)
+        hint = "" if folder is None or near is None else f" (is it {near.relative_to(folder)}?)"
+        return StudentError("missing", f"{path} is missing{hint}", module_wide=True)
     if not source.strip():
         return StudentError("missing", f"{path} is empty", module_wide=True)
     return None
-
-
-def _meant(module: str, folder: Path | None) -> str:
-    """Which other file of the folder may be meant to be the module."""
-    files = [] if folder is None else sorted(folder.glob("*.py"))
-    near = meant(module, (file.stem for file in files if file.stem not in COURSE))
-    return f" (is it {near}.py?)" if near else ""
 
 
 def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[str, Path]:

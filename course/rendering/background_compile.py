@@ -19,9 +19,10 @@ from typing import Any
 from course.core.counters import Counters
 from course.core.tiles import Tile, pass_size
 from course.core.tracer import Tracer
-from course.effects import PROJECT, Effects, NothingWritten, environment_apart
+from course.effects import PROJECT, Effects, NothingWritten
 from course.errors import CourseError
 from course.modules import COURSE
+from course.processes import environment_apart
 from course.rendering.threads import Pool
 from course.scene.scene import Scene, Settings, load_scene
 

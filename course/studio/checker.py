@@ -12,8 +12,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from course.effects import environment_apart
 from course.grading.worker.limits import end_tree
+from course.processes import environment_apart
 
 NICE = 10
 """Added to its niceness: pictures come first."""

@@ -11,8 +11,8 @@ import threading
 from collections.abc import Callable
 from typing import IO, Any
 
-from course.effects import environment_apart
 from course.grading.worker.limits import Budget, Limits, end_tree
+from course.processes import environment_apart
 from course.studio.messages import Channel, messages
 
 PROGRAM = "course.studio.program"

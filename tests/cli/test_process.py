@@ -15,6 +15,7 @@ from PIL import Image
 from course.cli.main import COMMANDS
 from course.effects import PROJECT
 from course.formats.pictures.reading import read_picture
+from course.processes import environment_apart
 from tests.cli.conftest import Run
 from tests.cli.signalled import interrupted, started
 from tests.cli.stand_in import RECEIPT
@@ -94,6 +95,18 @@ def test_streams_that_are_closed_are_nobodys(tmp_path: Path) -> None:
     shutil.copytree(PROJECT / "solutions", tmp_path / "assignments")
     check = f"exec '{sys.executable}' -m course check motion_blur --only displacement"
     subprocess.run(["sh", "-c", f"{check} <&- >&- 2>&-"], cwd=tmp_path, check=True)
+
+
+def test_a_process_apart_imports_nothing_of_the_current_folder(tmp_path: Path) -> None:
+    (tmp_path / "random.py").write_text("raise SystemExit(1)", encoding="utf-8")
+    for program in (["-c", "import random, course"], ["-m", "random"]):
+        subprocess.run(
+            [sys.executable, *program],
+            cwd=tmp_path,
+            env=environment_apart(),
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
 
 
 def test_a_scene_becomes_a_png_and_an_exr_of_its_size(tmp_path: Path, scene: Path) -> None:

@@ -2,8 +2,6 @@
 
 import json
 import shutil
-import subprocess
-import sys
 import warnings
 from pathlib import Path
 from typing import Any
@@ -16,7 +14,7 @@ from PIL import Image
 from course import EffectError, load_scene, pixel, render
 from course.cli.main import commands
 from course.core.types import Floats32
-from course.effects import PROJECT, Effects, environment_apart, written_functions
+from course.effects import PROJECT, Effects, written_functions
 from course.errors import CourseWarning
 from course.modules import COURSE
 from course.scene.scene import load_variant
@@ -275,15 +273,3 @@ def test_a_copy_beside_a_file_is_no_matter(mine: Path) -> None:
         warnings.simplefilter("error", CourseWarning)
         assert Effects("mine").written("glossy", "sample_phong_lobe")
         assert not Effects("mine").written("film", "reinhard")
-
-
-def test_a_process_apart_imports_nothing_of_the_current_folder(tmp_path: Path) -> None:
-    (tmp_path / "random.py").write_text("raise SystemExit(1)", encoding="utf-8")
-    for program in (["-c", "import random, course"], ["-m", "random"]):
-        subprocess.run(
-            [sys.executable, *program],
-            cwd=tmp_path,
-            env=environment_apart(),
-            check=True,
-            stdout=subprocess.DEVNULL,
-        )

@@ -38,10 +38,10 @@ def test_200_paths_are_less_than_a_megabyte(name: str) -> None:
 
 @pytest.mark.parametrize("balls", [150, 600])
 def test_a_scene_of_many_objects_is_less_than_a_megabyte_too(tmp_path: Path, balls: int) -> None:
-    """Skittles of 0.3 MB each would be 40 MB; of too many the largest are shown."""
+    """Skittles of 2 MB each would be 300 MB; of too many the largest are shown."""
     scene = tmp_path / "many.yaml"
     rows = "".join(
-        f"  - {{shape: sphere, material: grey, radius: {0.02 + 0.0001 * n}, segments: 24,"
+        f"  - {{shape: sphere, material: grey, radius: {0.02 + 0.0001 * n}, segments: 64,"
         f" transform: [{{translate: [{n % 30 - 15}, {n // 30}, 0]}}]}}\n"
         for n in range(balls)
     )

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.declare import declaration
-from course.grading.errors import StudentError, Trouble, meant
+from course.grading.errors import StudentError, Trouble
 from course.grading.worker.framing import LARGEST_INTEGER, Passed
-from course.modules import COURSE
+from course.modules import COURSE, meant
 
 LONGEST_MESSAGE = 300
 LONGEST_LINE = 160
