@@ -10,8 +10,9 @@ What most programs need is here; each name is imported when it is first asked fo
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING
 
+# Not from typing: `python -m course` imports nothing before `__main__.py` has taken the current folder out of the way.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from course.errors import CourseError as CourseError
     from course.errors import EffectError as EffectError

@@ -23,6 +23,7 @@ from course import __version__
 from course.cli.options import INTERRUPTED
 from course.effects import CHECKOUT
 from course.errors import CourseError, CourseWarning
+from course.processes import READ_THERE, stay_apart
 
 SECTIONS = {
     "Learn": ("start", "check", "status", "studio", "portfolio"),
@@ -97,6 +98,11 @@ class Commands(click.Group):
             raise Refusal(
                 "the current folder is gone or can't be read: go to another one"
             ) from None
+        for name, library in READ_THERE.items():
+            if Path(name).exists():
+                raise Refusal(
+                    f"{name}: {library} would obey this file of the current folder: rename it, or go to another folder"
+                )
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("always", CourseWarning)
@@ -156,6 +162,7 @@ def commands() -> None:
 
 def main() -> None:
     """Run the command line of this process."""
+    stay_apart()
     _open_closed_streams()
     if isinstance(sys.stdout, TextIOWrapper):
         # A title in Greek must not end a render on a console that can't show it.

@@ -1,0 +1,185 @@
+"""Commands in a folder of strangers' files: whatever they are called, none of them runs outside of the sandbox."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from course.cli.main import COMMANDS
+from course.processes import READ_THERE
+from tests.cli.signalled import interrupted
+from tests.processes import ROOT
+
+SCRIPT = "from course.cli.main import main\nif __name__ == '__main__':\n    main()\n"
+"""What an installed `course` begins with: the folder of the script comes first, and not the current one."""
+
+MARK = "import os\nopen(os.environ['MARK'], 'a').write(__name__ + ' ')\n"
+"""A file that tells that it was run; the sandbox has no such variable, and writes nothing."""
+
+INSTALLED = (
+    "click",
+    "yaml",
+    "numpy",
+    "PIL",
+    "numba",
+    "embreex",
+    "skimage",
+    "msgspec",
+    "rich",
+    "scipy",
+)
+
+SCENE = """
+camera: {eye: [0, 1, 4], look_at: [0, 0, 0]}
+film: {width: 24, height: 16}
+materials: {grey: {color: 0.5}}
+lights: [{type: point, position: [2, 4, 3], intensity: 100}]
+objects: [{shape: box, material: grey}]
+"""
+
+CHECK = ("check", "motion_blur", "--folder", "alice", "--only", "displacement")
+GRADE = ("grade", "some", "--modules", "motion_blur", "--jobs", "2", "--out", "../graded")
+
+RUNS: dict[str, tuple[str, ...]] = {
+    "start": ("start", "../new"),
+    "check": CHECK,
+    "status": ("status", "--folder", "alice"),
+    "studio": ("studio", "a.yaml", "--effects", "alice", "--no-browser"),
+    "portfolio": (
+        "portfolio",
+        "motion_blur",
+        "--folder",
+        "alice",
+        "-o",
+        "../p.html",
+        "--time-limit",
+        "1",
+    ),
+    "render": ("render", "a.yaml", "--effects", "mine", "-o", "../a.png"),
+    "pixel": ("pixel", "a.yaml", "12,8", "--html", "../a.html"),
+    "view": ("view", "a.yaml", "--no-browser"),
+    "radiosity": ("radiosity", "room.yaml", "-o", "../room.npz"),
+    "info": ("info", "a.yaml"),
+    "convert": ("convert", "a.yaml", "-o", "../b.yaml"),
+    "compare": ("compare", "a.yaml", "a.yaml"),
+    "schema": ("schema", "-o", "../schema.json"),
+    "demo": ("demo", "a.yaml", "--out", "../demo"),
+    "bench": ("bench", "sampling"),
+    "release": ("release", "--out", "../student.zip"),
+    "regrade": ("regrade", "some", "--out", "../graded", "--dry-run"),
+    "viva": ("viva", "alice", "--modules", "motion_blur"),
+    "quiz": ("quiz", "../quiz", "--modules", "motion_blur"),
+    "bundle": ("bundle", "gradescope", "--out", "../autograder.zip"),
+    "calibrate": ("calibrate", "motion_blur", "--seeds", "1", "--out", "../tolerances.json"),
+    "references": ("references", "--seed", "1", "--out", "../references.npz"),
+}
+"""A run of each command. What it comes to is not the matter here: some end in a refusal."""
+
+STAYS = {"studio", "view"}
+"""Commands that run until Ctrl-C."""
+
+BEGUN = {"release", "bundle", "references", "quiz", "calibrate"}
+"""Commands that take a minute. All that they import, they have imported, and started what they start, after this."""
+
+SECONDS = 6.0
+
+
+@pytest.fixture(scope="module")
+def strangers(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of submissions that are called like modules of the standard library, or of what is installed."""
+    folder = tmp_path_factory.mktemp("class") / "submissions"
+    for inner in ("alice", "some"):
+        (folder / inner).mkdir(parents=True)
+    for name in (*sys.stdlib_module_names, *INSTALLED):
+        (folder / f"{name}.py").write_text(MARK, encoding="utf-8")
+    solution = (ROOT / "solutions" / "motion_blur.py").read_text(encoding="utf-8")
+    (folder / "alice" / "motion_blur.py").write_text(solution, encoding="utf-8")
+    for name in ("struct.py", "socket.py"):
+        (folder / "some" / name).write_text(solution, encoding="utf-8")
+    (folder / "a.yaml").write_text(SCENE, encoding="utf-8")
+    (folder.parent / "course").write_text(SCRIPT, encoding="utf-8")
+    return folder
+
+
+def environment(folder: Path) -> dict[str, str]:
+    """Nothing that would keep Python from looking into the current folder; where a file that runs says so."""
+    plain = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+    return plain | {"PYTHONPATH": str(ROOT), "MARK": str(folder.parent / "mark")}
+
+
+def ran(folder: Path, command: list[str], ends: bool = True) -> str:
+    """What was run of the folder's files by a command that began there."""
+    mark = folder.parent / "mark"
+    mark.unlink(missing_ok=True)
+    process = subprocess.Popen(
+        [sys.executable, *command],
+        cwd=folder,
+        env=environment(folder),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        process.communicate(timeout=300 if ends else SECONDS)
+    except subprocess.TimeoutExpired:
+        assert not ends
+        interrupted(process)
+    return mark.read_text() if mark.exists() else ""
+
+
+def test_each_command_has_a_run() -> None:
+    assert {*RUNS, "grade"} == set(COMMANDS)
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_a_command_runs_no_file_of_the_current_folder(name: str, strangers: Path) -> None:
+    command = [str(strangers.parent / "course"), *RUNS[name]]
+    assert ran(strangers, command, ends=name not in STAYS | BEGUN) == ""
+
+
+@pytest.mark.parametrize("arguments", [CHECK, GRADE], ids=["check", "grade"])
+def test_a_module_run_imports_no_file_of_the_current_folder(
+    arguments: tuple[str, ...], strangers: Path, tmp_path: Path
+) -> None:
+    # Python itself imports some before the course is there: -m needs them.
+    needs = "import runpy, importlib.util, sys; print(*{name.partition('.')[0] for name in sys.modules})"
+    early = subprocess.run(
+        [sys.executable, "-Xfrozen_modules=off", "-c", needs],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    folder = tmp_path / "submissions"
+    shutil.copytree(
+        strangers,
+        folder,
+        ignore=lambda _, names: {n for n in names if Path(n).stem in early.stdout.split()},
+    )
+    assert (folder / "struct.py").exists()
+    assert (folder / "multiprocessing.py").exists()
+    assert ran(folder, ["-m", "course", *arguments]) == ""
+
+
+def test_a_class_is_graded_there(strangers: Path) -> None:
+    assert ran(strangers, [str(strangers.parent / "course"), *GRADE]) == ""
+    grades = (strangers.parent / "graded" / "grades.csv").read_text(encoding="utf-8")
+    assert grades.count("30") >= 2
+
+
+@pytest.mark.parametrize("name", READ_THERE)
+def test_a_file_that_a_library_would_obey_is_told(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("", encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "course", "status"],
+        cwd=tmp_path,
+        env=environment(tmp_path),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith(f"error: {name}: ")
+    assert "rename" in done.stderr
