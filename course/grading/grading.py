@@ -11,8 +11,9 @@ from typing import Any
 from course import __version__
 from course.grading.catalog import module_checks, with_whole
 from course.grading.checks.check import Caller, Check, ModuleChecks, References
+from course.grading.checks.lending import Lenders
 from course.grading.checks.result import Result, Status, troubled
-from course.grading.checks.running import Lenders, run_checks
+from course.grading.checks.running import run_checks
 from course.grading.errors import StudentError
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import SOLUTIONS, reference

@@ -1,10 +1,12 @@
 """What a report says of the arguments: those of the worst column, and the smallest input that shows a mistake."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from course.grading.checks.bounds import Bounded
 from course.grading.checks.check import Failure, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
@@ -45,7 +47,7 @@ def example(
     """Give a failure the smallest input that breaks the law: up to three columns of round numbers, if there is one."""
     from course.grading.checks.laws import exact
 
-    rng = np.random.default_rng(0)
+    rng, trial = np.random.default_rng(0), replace(trial, caller=Bounded(trial.caller))
     for n in SMALL:
         for _ in range(TRIES):
             try:
@@ -66,9 +68,10 @@ def example(
 
 def fewest_columns(function: Function, law: Law, trial: Trial) -> str:
     """The smallest call, of the arguments that a law is about, that gives no usable value; empty if few columns do."""
+    caller = Bounded(trial.caller)
     for n in SMALL:
         rng = np.random.default_rng(n)
-        small = Trial(trial.function, trial.caller, rng, trial.references)
+        small = Trial(trial.function, caller, rng, trial.references)
         a = function.make(Draw(rng, n, np.float64, simple=True), law.case)
         try:
             function.call(small, a)

@@ -8,9 +8,9 @@ first.
 """
 
 import traceback
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from time import perf_counter
 from typing import Any
 
@@ -26,18 +26,16 @@ from course.grading.checks.check import (
     Trial,
     generator,
 )
-from course.grading.checks.declare import Arguments, Function, declaration, unstacked
-from course.grading.checks.examples import where
-from course.grading.checks.mistakes import SLIPS, explains, known_mistake
-from course.grading.checks.picture_rays import PICTURE, rays_behind
+from course.grading.checks.closer import CloserLook
+from course.grading.checks.declare import declaration, unstacked
+from course.grading.checks.lending import Lenders, Lending, Outcome
+from course.grading.checks.mistakes import SLIPS
+from course.grading.checks.remedies import column_of, of_count, of_shape
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.errors import StudentError
 from course.grading.looked import Looked
 from course.grading.worker.limits import NOT_RUN
 from course.grading.worker.wording import said, told
-
-Lenders = Callable[[str], Caller | None]
-"""function -> the same student's module, with the reference's in place of the functions that come before it."""
 
 Standard = Callable[[], Caller]
 """Makes the reference's module."""
@@ -62,10 +60,10 @@ def run_checks(
     standard : the reference in this process, for checks that break; None where there is no solution
     """
     given_up: dict[str, Result] = {}
-    matched: dict[str, tuple[str, str] | None] = {}
     by_cause: dict[tuple[str, str], str] = {}
-    wrong: dict[str, None] = {}
     attempt = partial(_attempt, checks.module, references=references, seed=seed, standard=standard)
+    lending = Lending(attempt, caller, yardstick, lenders)
+    closer = cache(partial(CloserLook, checks, references, seed, partial(Gate, checks.module)))
     for check in filter(only, checks.checks):
         if check.function in given_up:
             # What ran out of time isn't waited for again. A stub earns no checks of arguments, which it came with.
@@ -78,25 +76,11 @@ def run_checks(
             continue
         started = perf_counter()
         hung = any(first.status is Status.TIMEOUT for first in given_up.values())
-        result, error, asked = _asked(attempt, check, caller, yardstick, lenders, lent_first=hung)
+        result, error, asked = lending.asked(check, lent_first=hung)
         if result.status in (Status.TIMEOUT, Status.NOT_ATTEMPTED):
             given_up[check.function] = result
-        above = _above(check.function, wrong, asked) if lenders(check.function) is None else ""
-        if result.status is Status.FAILED and above:
-            hint = f"{BEGIN.format(above)} {result.hint}".strip()
-            result = replace(result, hint=hint, mistake="", says="")
-        elif result.status is Status.FAILED:
-            if check.function not in matched:
-                matched[check.function] = known_mistake(checks, check.function, asked, references)
-            mistake = matched[check.function]
-            if mistake is not None and explains(checks.module, check, mistake[0]):
-                result = replace(result, mistake=mistake[0], says=mistake[1])
         if result.status is Status.FAILED:
-            wrong.setdefault(check.function)
-            if check.name == PICTURE:
-                gate = Gate(checks.module, asked)
-                shown = rays_behind(checks, check, gate, references, seed)
-                result = replace(result, figures=(*result.figures, *shown))
+            result = closer().at(result, check, asked, alone=lenders(check.function) is None)
         if error is not None:
             first_id = by_cause.setdefault((check.function, error.cause), result.id)
             if first_id != result.id:
@@ -104,77 +88,19 @@ def run_checks(
         yield replace(result, seconds=perf_counter() - started)
 
 
-STANDS_ON = "Right by itself: the check passes when the functions above it, which this one calls, are the course's own."
-
-BEGIN = "Begin with {}: this function calls it, and it is wrong."
-
 OUT_OF_TIME = "an earlier check of this function ran out of time"
-
-_Outcome = tuple[Result, StudentError | None]
-
-
-def _above(function: str, wrong: Iterable[str], caller: Caller) -> str:
-    """The first of the functions found wrong that this one calls; empty if there is none."""
-    calls = getattr(caller, "calls", None)
-    return next((o for o in wrong if calls and o != function and calls(function, o)), "")
-
-
-def _asked(
-    attempt: Callable[..., _Outcome],
-    check: Check,
-    caller: Caller,
-    yardstick: Caller | None,
-    lenders: Lenders,
-    *,
-    lent_first: bool,
-) -> tuple[Result, StudentError | None, Caller]:
-    """A check with the student's functions alone; if it fails, with the reference's above it, where it calls those.
-
-    Parameters
-    ----------
-    lent_first : the other way round, because a function above it never ends: whoever calls that one would be waited
-        for in vain
-
-    Returns
-    -------
-    what it gave, the error where there was one, and with which functions
-    """
-
-    def with_reference() -> tuple[Result, StudentError | None, Caller] | None:
-        lender = lenders(check.function)
-        if lender is None:
-            return None
-        result, error = attempt(check, lender, yardstick=None)
-        hint = STANDS_ON if result.status is Status.PASSED else result.hint
-        return replace(result, hint=hint), error, lender
-
-    lent = with_reference() if lent_first else None
-    if lent and lent[0].status is Status.PASSED:
-        return lent
-    result, error = attempt(check, caller, yardstick=yardstick)
-    # What isn't in the file or not written yet, or is in a file that can't be used, is nobody else's mistake.
-    stub = error is not None and error.kind == "not written" and f".{check.function}:" in str(error)
-    alone = error is not None and (error.kind == "missing" or error.module_wide or stub)
-    if not alone and result.status not in (Status.PASSED, Status.GRADER_ERROR):
-        # It may have waited for the function that never ends; what is wrong with it itself says more.
-        says_more = lent_first and result.status is Status.TIMEOUT
-        lent = lent or with_reference()
-        retried = result.status is Status.FAILED and not getattr(lent and lent[2], "borrowed", True)
-        if lent and (says_more or (lent[0].status is Status.PASSED and not retried)):
-            return lent
-    return result, error, caller
 
 
 def _attempt(
     module: str,
     check: Check,
     caller: Caller,
+    yardstick: Caller | None,
     *,
     references: References,
     seed: int,
-    yardstick: Caller | None,
     standard: Standard | None,
-) -> _Outcome:
+) -> Outcome:
     def trial_of(whose: Caller) -> Trial:
         return Trial(check.function, whose, generator(seed, module, check), yardstick=yardstick)
 
@@ -191,7 +117,7 @@ def _attempt(
     return replace(result, figures=tuple(trial.figures), instructor=how), None
 
 
-def _ended(module: str, check: Check, trial: Trial, references: References) -> _Outcome:
+def _ended(module: str, check: Check, trial: Trial, references: References) -> Outcome:
     """How a check ended; whatever it raises beside is its own fault."""
     trouble: StudentError | None = None
     try:
@@ -246,14 +172,6 @@ def _breaks(
 
 
 # ---------------------------------------------------------------- the gate
-
-COMMA = "A comma after the only result makes a tuple of it."
-
-NONE = "A function that ends without return gives None: every way through it has to end with `return` and the result."
-
-ROWS = "Several rows become one array by np.stack([x, y, z])."
-
-TURNED = "It is turned over: coordinates are in the first axis, and the columns of the batch in the last."
 
 
 class Gate:
@@ -312,21 +230,13 @@ class Gate:
         if several != (count > 1) or len(parts) != count:
             wanted = f"{count} results" if count > 1 else "one array or number"
             wrong = f"{told(value)} instead of {wanted}"
-            remedy = (
-                NONE
-                if value is None
-                else COMMA
-                if count == 1 and len(parts) == 1
-                else ROWS
-                if count == 1 and several
-                else ""
-            )
+            remedy = of_count(value, count)
         else:
             shapes = (None if named else declared.shapes(arguments)) or [None] * count
             for part, result, shape in zip(parts, declared.results, shapes, strict=True):
                 if not wrong and (wrong := _wrong(part, shape, result.finite)):
-                    example = _column(declared, part, arguments)
-                    remedy = _remedy(part, shape)
+                    example = column_of(declared, part, arguments)
+                    remedy = of_shape(part, shape)
         if wrong:
             given = said(self._path(function), arguments, named)
             error = StudentError(
@@ -335,29 +245,6 @@ class Gate:
             error.example = example
             raise error
         return value
-
-
-def _remedy(part: Any, shape: tuple[int, ...] | None) -> str:
-    """What to do about a result that is none or of another shape; empty where that is not known."""
-    if part is None:
-        return NONE
-    if shape is None or not isinstance(part, np.ndarray) or part.shape == shape:
-        return ""
-    if part.shape == shape[::-1]:
-        return TURNED
-    if part.shape[-1:] == shape[-1:]:
-        return ""
-    return f"The last axis has a column for each ray or point that is asked for: {shape[-1]} here."
-
-
-def _column(declared: Function, part: Any, arguments: tuple[Any, ...]) -> str:
-    """The arguments of a number that isn't finite; empty if all are."""
-    array = np.asarray(part)
-    if array.dtype.kind != "f" or np.isfinite(array).all():
-        return ""
-    names = (argument.name for argument in declared.arguments)
-    index = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
-    return where(Arguments(zip(names, arguments, strict=False)), index, array.shape)
 
 
 def _wrong(part: Any, shape: tuple[int, ...] | None, finite: bool) -> str:

@@ -1,8 +1,9 @@
 """Where a function calls another public one that is wrong, that one is named first."""
 
 from course.grading.catalog import module_checks
+from course.grading.checks.closer import BEGIN
 from course.grading.checks.result import Result, Status
-from course.grading.checks.running import BEGIN, run_checks
+from course.grading.checks.running import run_checks
 from course.grading.references import prepared, reference
 from course.grading.worker.client import Worker
 
