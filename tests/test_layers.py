@@ -23,6 +23,7 @@ LAYERS = {
     "modules": 1,
     "processes": 1,
     "stand_ins": 1,
+    "texts": 1,
     "atomic": 1,
     "extras": 2,
     "shapes": 2,

@@ -5,7 +5,7 @@ well-conditioned twin, which looks the same; ``shift`` says how far apart [half 
 the smallest change of the scene that explains every difference between their pictures (a backward error). Thin
 triangles add a ``thin_shift``, but only where they are, on a share of the surfaces.
 
-Symbols: U = 2^-24, the rounding of float32; OFFSET, SLIVER, TILT, MOST as in ``course.core.ray_offset``.
+Symbols: U = 2^-24, the rounding of float32; OFFSET, LONG, MOST as in ``course.core.ray_offset``.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ U = 2.0**-24
 OFFSET = 2.0**-19
 """How far above a surface rays leave it, as a share of its triangle's largest coordinate."""
 
-SLIVER, TILT, MOST = 8.0, 0.5, 1024.0
+LONG, MOST = 64.0, 1024.0
 """The length over the height from which on that grows in proportion, and what it is multiplied by at most."""
 
 NOTHING = 1e-30
@@ -82,7 +82,7 @@ def _triangles(kind: str, size: float | None = None, shift: float = 0.0) -> Leve
 def _thin(kind: str, size: float, ratio: float, share: float) -> Level:
     # Rays leave slivers from farther above; along needles the barycentrics of a hit err by the length over the width.
     along = ratio * U if kind == "needles" else 0.0
-    above = OFFSET * max(min(TILT * (ratio - SLIVER), MOST), 1)
+    above = OFFSET * max(min(ratio / LONG, MOST), 1)
     return Level(f"{kind} {size:g}", (kind, size), ("two", None), 0.0, above + along, min(share, 1))
 
 

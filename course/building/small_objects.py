@@ -6,21 +6,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.building.cutting import SmallThings
+from course.building.cutting import MOST, TOO_LARGE, SmallThings, raised_offsets, unfinished
 from course.building.frame import FARTHEST, Frame, bounds_of, frame_of
 from course.building.motion import Shutter
 from course.core.ray_offset import OFFSET
 from course.core.types import Floats64, Indices
 from course.errors import CourseWarning
+from course.extras.surface import FullPart
 from course.formats.yaml import description as d
+from course.formats.yaml.document import KeyPath
 from course.formats.yaml.loading import Loaded
 from course.shapes.mesh import Mesh
-
-TOO_LARGE = 1024.0
-"""Largest size of a triangle beside an object, in sizes of the object, at which the offset of its rays is invisible.
-
-The offset is then a 512th of the object's size, and changes a picture full of its shadows by less than 1e-3.
-"""
 
 CUT = 64.0
 """Where triangles are cut, they become at most this many times as large as the objects beside them."""
@@ -119,31 +115,32 @@ def _middle_extent(box: Floats64) -> float:
     return float(np.sort(box[1] / 2 - box[0] / 2)[1] * 2)
 
 
-def frame_for(extents: Extents, objects: int) -> tuple[Frame, SmallThings | None]:
-    """The frame of a scene, and in its coordinates the things beside which triangles are to be cut.
+def frame_for(extents: Extents, objects: int) -> tuple[Frame, SmallThings, bool]:
+    """The frame of a scene, in its coordinates the things beside which triangles may be cut, and if any is small.
 
-    These are None, and the frame is that of all objects, where nothing is so small that it matters. Else its origin is
-    where small things are placed best: each may be off by so much more as it is larger.
+    The frame is that of all objects where nothing is so small that it matters. Else its origin is where small things
+    are placed best: each may be off by so much more as it is larger.
     ``objects``: how many of the extents are those of objects.
     """
     frame = frame_of(list(extents.boxes[:objects]))
     # A lamp out of float32's reach is refused where lights are compiled; the frame is that of the others.
     apart = np.abs(extents.boxes - frame.center).max(axis=(1, 2))
     there = (extents.sizes > 0) & (apart < FARTHEST * frame.scale)
-    if not there[:objects].any() or extents.sizes[there].min() / frame.scale * TOO_LARGE >= 1:
-        return frame, None
-    # Smaller objects have no surface in float32.
-    sizes = np.maximum(extents.sizes[there], frame.scale / LARGEST_RATIO)
-    boxes = extents.boxes[there]
-    center = np.array([_between(middle, sizes) for middle in (boxes[:, 0] / 2 + boxes[:, 1] / 2).T])
-    own = extents.boxes[:objects]
-    farthest = float(np.maximum(own[:, 1] - center, center - own[:, 0]).max())
-    # The smallest is as much smaller than 1 as the farthest is larger: both are far from where products under- or
-    # overflow, and lights from the least distance that counts.
-    reach = float(2.0 ** np.round(np.log2(farthest / sizes.min()) / 2))
-    frame = Frame(center, farthest / reach, reach)
+    boxes, sizes = extents.boxes[there], extents.sizes[there]
+    small = bool(there[:objects].any() and sizes.min() / frame.scale * TOO_LARGE < 1)
+    if small:
+        # Smaller objects have no surface in float32.
+        sizes = np.maximum(sizes, frame.scale / LARGEST_RATIO)
+        middles = (boxes[:, 0] / 2 + boxes[:, 1] / 2).T
+        center = np.array([_between(middle, sizes) for middle in middles])
+        own = extents.boxes[:objects]
+        farthest = float(np.maximum(own[:, 1] - center, center - own[:, 0]).max())
+        # The smallest is as much smaller than 1 as the farthest is larger: both are far from where products under-
+        # or overflow, and lights from the least distance that counts.
+        reach = float(2.0 ** np.round(np.log2(farthest / sizes.min()) / 2))
+        frame = Frame(center, farthest / reach, reach)
     placed = frame.position(boxes)
-    return frame, SmallThings(placed[:, 0], placed[:, 1], sizes / frame.scale)
+    return frame, SmallThings(placed[:, 0], placed[:, 1], sizes / frame.scale), small
 
 
 def _between(places: Floats64, sizes: Floats64) -> float:
@@ -158,8 +155,8 @@ def _between(places: Floats64, sizes: Floats64) -> float:
     return float((places - most * sizes).max() / 2 + (places + most * sizes).min() / 2)
 
 
-def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> None:
-    """Say which object is too small for the scene or for its place in it, once for all of them.
+def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> bool:
+    """Say which object is too small for the scene or for its place in it, once for all of them; whether one is.
 
     ``extents``: of the objects alone.
     """
@@ -172,7 +169,7 @@ def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> None:
     )
     small = np.flatnonzero(excess > 1)
     if len(small) == 0:
-        return
+        return False
     worst = int(excess.argmax())
     # The farthest point of any object, seen from this one.
     middle = extents.boxes[worst].mean(axis=0)
@@ -189,15 +186,47 @@ def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> None:
         CourseWarning,
         stacklevel=2,
     )
+    return True
 
 
-def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequence[Mesh]) -> None:
+def warn_of_unfinished(
+    loaded: Loaded, parts: Sequence[FullPart], things: SmallThings, pieces: int
+) -> None:
+    """Say which object's triangles were too many to be cut as finely as what lies beside them asks for.
+
+    ``pieces``: how many more triangles there are than before
+    """
+    left = unfinished(parts, things) if pieces >= MOST / 2 else []
+    if not left:
+        return
+    objects = len(loaded.description.objects)
+    where: KeyPath = ("objects", left[0]) if left[0] < objects else ("lights",)
+    what = _named(loaded, left[0]) if left[0] < objects else "a light"
+    warnings.warn(
+        f"{loaded.document.where(where)}: {what} has so many long thin triangles that not all were cut as finely as"
+        " what lies beside them asks for: shadows and mirror images on them may be displaced; give it fewer or"
+        " wider triangles",
+        CourseWarning,
+        stacklevel=2,
+    )
+
+
+def warn_of_gaps(
+    loaded: Loaded,
+    extents: Extents,
+    frame: Frame,
+    meshes: Sequence[Mesh],
+    compiled: Sequence[Mesh],
+    raised: float,
+) -> None:
     """Say which gap between flat sides of two parts, or of one, rays that leave a surface would cross; once for all.
 
     Parameters
     ----------
     extents : of the objects alone
     meshes : of the objects
+    compiled : the same, first of all, moved, scaled and cut
+    raised : largest offset of their thin triangles
     """
     owner, things, boxes = _parts(loaded, extents, meshes)
     sizes = (boxes[:, 1] / 2 - boxes[:, 0] / 2).max(axis=1)
@@ -207,6 +236,7 @@ def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequenc
     way = low[None] - high[:, None]
     shared = np.maximum(low[:, None], low[None]), np.minimum(high[:, None], high[None])
     own = np.arange(len(some))
+    raisers = dict[int, tuple[Floats64, Floats64]]()
     # From an object's one side to the other it is as far as it is thick.
     way[own, own] = high - low
     for axis in range(3):
@@ -218,16 +248,21 @@ def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequenc
         place = np.maximum(np.abs(low), np.abs(high))[:, axis]
         least = np.maximum(place[:, None], place[None]) * 2.0**-22
         least = np.maximum(least, reach / LARGEST_RATIO)
-        thin = (gap > least) & (gap < THIN * OFFSET * reach) & (beside > 4 * gap)
-        for i, j in np.argwhere(thin).tolist():
+        leave = OFFSET * reach
+        thin = (gap > least) & (gap < THIN * np.maximum(leave, raised * frame.scale))
+        for i, j in np.argwhere(thin & (beside > 4 * gap)).tolist():
             first, second = int(some[i]), int(some[j])
+            where = owner[first], owner[second]
+            between = np.stack((shared[0][i, j], shared[1][i, j])) / frame.scale
+            raisers.update((n, _raisers(compiled[n])) for n in where if n not in raisers)
+            above = max(_largest_in(between, axis, *raisers[number]) for number in where)
+            above = max(above * frame.scale, float(leave[i, j]))
             sides = (0, 1) if i == j else (1, 0)
-            if all(
+            if gap[i, j] < THIN * above and all(
                 _is_flat(things[number], axis, side, gap[i, j] / 64)
                 for number, side in zip((first, second), sides, strict=True)
             ):
-                where = owner[first], owner[second]
-                _warn_of_gap(loaded, *where, i == j, float(gap[i, j]), float(reach[i, j]))
+                _warn_of_gap(loaded, *where, i == j, float(gap[i, j]), float(reach[i, j]), above)
                 return
 
 
@@ -278,6 +313,23 @@ def _alone(vertices: Floats64, triangles: Indices) -> Mesh:
     return Mesh(vertices[used], place.reshape(triangles.shape))
 
 
+def _raisers(mesh: Mesh) -> tuple[Floats64, Floats64]:
+    """Corners (R, 3 corners, 3) of a mesh's thin triangles, and their least offsets (R,)."""
+    p = mesh.vertices[mesh.triangles]
+    offsets = raised_offsets(p)
+    some = np.flatnonzero(offsets)
+    return p[some], offsets[some]
+
+
+def _largest_in(box: Floats64, axis: int, p: Floats64, offsets: Floats64) -> float:
+    """Largest of the offsets (R,) of triangles (R, 3, 3) that reach into a box (2, 3) and lie across an axis."""
+    ends, (low, high) = np.sort(box, axis=0), (p.min(axis=1), p.max(axis=1))
+    room = (ends[1] - ends[0])[axis] / 64
+    there = ((low <= ends[1] + room) & (high >= ends[0] - room)).all(axis=1)
+    across = high[:, axis] - low[:, axis] < room
+    return float(offsets[there & across].max(initial=0))
+
+
 def _is_flat(mesh: Mesh, axis: int, side: int, within: float) -> bool:
     """Whether the lowest or highest side of a mesh is more than a point or an edge."""
     places = mesh.vertices[:, axis]
@@ -286,7 +338,7 @@ def _is_flat(mesh: Mesh, axis: int, side: int, within: float) -> bool:
 
 
 def _warn_of_gap(
-    loaded: Loaded, first: int, second: int, thick: bool, gap: float, reach: float
+    loaded: Loaded, first: int, second: int, thick: bool, gap: float, reach: float, above: float
 ) -> None:
     between = f"{_named(loaded, first)} and {_named(loaded, second)}"
     if first == second:
@@ -296,7 +348,7 @@ def _warn_of_gap(
         what = f"{_named(loaded, first)} is {gap:.3g} thick"
     warnings.warn(
         f"{loaded.document.where(('objects', second))}: {what}, and reaches {reach:.3g} away from the scene's middle,"
-        f" where rays leave a surface by {OFFSET * reach:.2g}: one side's shadow on the other may be lost; make it"
+        f" where rays leave a surface by {above:.2g}: one side's shadow on the other may be lost; make it"
         " wider or the scene smaller",
         CourseWarning,
         stacklevel=2,

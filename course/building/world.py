@@ -1,11 +1,12 @@
 """Compile a checked description into what is rendered: meshes read, moved to the frame, rounded to float32."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from course.building.cameras import compile_lens, make_camera, make_window_camera
-from course.building.cutting import cut
+from course.building.cutting import TOO_LARGE, SmallThings, cut
 from course.building.environment import compile_environment
 from course.building.frame import Frame, bounds_of, in_range, in_reach
 from course.building.gloss import (
@@ -27,13 +28,15 @@ from course.building.small_objects import (
     frame_for,
     warn_of_gaps,
     warn_of_small,
+    warn_of_unfinished,
 )
 from course.building.textures import Painter, shows_specular_texture, shows_texture
 from course.core.camera import Camera
+from course.core.ray_offset import OFFSET
 from course.core.types import Floats64
 from course.effects import Bound, Effects, Need
 from course.extras.own_lamp import without_own_lamp
-from course.extras.surface import FullPart, build_surface
+from course.extras.surface import FullPart, FullSurface, build_surface
 from course.extras.world import FullWorld
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
@@ -84,8 +87,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
     extents = extents_of_objects(bounds, boxes)
     lamps = extents_of_lamps(loaded, shutter, extents, meshes)
-    frame, small = frame_for(extents + lamps, len(bounds))
-    pieces = 0
+    frame, things, small = frame_for(extents + lamps, len(bounds))
     check_sweeps(loaded, frame, shutter)
     columns = material_columns(scene)
     used = {
@@ -120,23 +122,24 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         warn_of_nested(scene, document, bounds, meshes)
     motion = compile_motion(loaded, frame, shutter, bound, materials)
     parts += emitters
-    if small is not None:
-        whole, parts = parts, cut(parts, small, CUT)
-        pieces = sum(len(part.mesh.triangles) for part in parts)
-        pieces -= sum(len(part.mesh.triangles) for part in whole)
     offset = scene.integrator.surface_offset / frame.scale
     path = ("integrator", "surface_offset")
     in_reach(np.array(offset), loaded, path, "the distance by which rays leave surfaces")
-    surface = build_surface(
-        parts,
-        motion.motion_blur if motion else None,
-        bulges=scene.integrator.terminator == "round",
-        # Refraction is not defined by a normal that looks away.
-        turned=None if scene.integrator.shading_normals == "bent" else materials.refracts,
-        hierarchy=compile_acceleration(loaded, shutter, bound),
-        least_offset=offset,
-        camera_position=_still_eye(loaded, frame),
-    )
+
+    def build(parts: Sequence[FullPart]) -> FullSurface:
+        return build_surface(
+            parts,
+            motion.motion_blur if motion else None,
+            bulges=scene.integrator.terminator == "round",
+            # Refraction is not defined by a normal that looks away.
+            turned=None if scene.integrator.shading_normals == "bent" else materials.refracts,
+            hierarchy=compile_acceleration(loaded, shutter, bound),
+            least_offset=offset,
+            camera_position=_still_eye(loaded, frame),
+        )
+
+    surface, whole, parts = _cut_and_built(parts, things, small, build)
+    pieces = sum(len(part.mesh.triangles) for part in parts) - whole
     objects = Lit(surface.triangles, columns.of_lights)
     lights, skipped = compile_lights(loaded, frame, shutter, bound, materials, objects)
     ambient = np.zeros(3)
@@ -179,11 +182,31 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         ),
     )
     check_growth(loaded, columns.names, world)
-    if small is not None:
-        warn_of_small(loaded, extents, frame)
-    warn_of_gaps(loaded, extents, frame, meshes)
+    if not (small and warn_of_small(loaded, extents, frame)):
+        warn_of_unfinished(loaded, parts, things, pieces)
+    raised = surface.triangles.largest_raised
+    warn_of_gaps(loaded, extents, frame, meshes, [part.mesh for part in parts], raised)
     triangles = tuple(len(mesh.triangles) for mesh in meshes)
     return Compiled(world, frame, triangles, tuple(bounds), pieces, bound.needs)
+
+
+def _cut_and_built(
+    parts: list[FullPart],
+    things: SmallThings,
+    small: bool,
+    build: Callable[[Sequence[FullPart]], FullSurface],
+) -> tuple[FullSurface, int, list[FullPart]]:
+    """The surface, how many triangles there were before any was cut, and the parts afterwards."""
+    whole = sum(len(part.mesh.triangles) for part in parts)
+    if small:
+        parts = cut(parts, things, CUT)
+    surface = build(parts)
+    # How far thin triangles are left is only known then: to ask beforehand would slow the building of all scenes.
+    if not small and surface.triangles.largest_raised > OFFSET * TOO_LARGE * things.least:
+        finer = cut(parts, things, TOO_LARGE)
+        if finer is not parts:
+            surface, parts = build(finer), finer
+    return surface, whole, parts
 
 
 def _still_eye(loaded: Loaded, frame: Frame) -> Floats64 | None:

@@ -21,6 +21,8 @@ LEAST = np.float32(1e-18)
 LESS, MORE = np.float32(1 - 2.0**-21), np.float32(1 + 2.0**-21)
 """By which the way to a box is shortened and the way out of it stretched: more than their rounding."""
 EPSILON = np.float32(2.0**-23)
+NEEDLE = np.float32(64)
+"""By which the square of an edge is larger than that of the shortest one in a needle."""
 
 
 class BatchCaster:
@@ -126,9 +128,18 @@ def _meet(corners: Floats32, o: Floats32, d: Floats32) -> tuple[Floats32, Floats
     total = u + v + w
     room = EPSILON * np.abs(total)
     least, most = np.minimum(np.minimum(u, v), w), np.maximum(np.maximum(u, v), w)
-    normal = cross(b - a, c - a)
+    e, f, g = b - a, c - a, c - b
+    corner, normal = p, cross(e, f)
+    one = _dot(e, e)
+    needle = _dot(g, g) * NEEDLE < one
+    if needle.any():
+        # Products of its two long edges would drown its normal in their rounding.
+        second = needle & (one < _dot(f, f))
+        third = needle & ~second
+        normal = np.where(second, cross(g, -e), np.where(third, cross(-f, -g), normal))
+        corner = np.where(second, q, np.where(third, r, p))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        t = _dot(p, normal) / _dot(direction, normal)
+        t = _dot(corner, normal) / _dot(direction, normal)
         u, v = u / total, v / total
     inside = ((least >= -room) | (most <= room)) & (total != 0)
     return u, v, np.where(inside & (t >= 0), t, np.float32(-1))

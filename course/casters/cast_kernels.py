@@ -16,7 +16,7 @@ from numba import carray, cfunc, njit, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from course.casters.batches import EPSILON, LEAST, LESS, MORE
+from course.casters.batches import EPSILON, LEAST, LESS, MORE, NEEDLE
 from course.casters.build_kernels import DEEPEST, TRIANGLE
 
 WIDTH = 16
@@ -139,6 +139,16 @@ def _test(w, whole, memory, place, number, row, shadow):
         return 0
     # ---- at what distance
     ex, ey, ez, fx, fy, fz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
+    gx, gy, gz = cx - bx, cy - by, cz - bz
+    one = ex * ex + ey * ey + ez * ez
+    two = fx * fx + fy * fy + fz * fz
+    three = gx * gx + gy * gy + gz * gz
+    # Products of a thin triangle's two long edges would drown its normal in their rounding.
+    if three * NEEDLE < one:
+        if one < two:
+            ax, ay, az, ex, ey, ez, fx, fy, fz = bx, by, bz, gx, gy, gz, -ex, -ey, -ez
+        else:
+            ax, ay, az, ex, ey, ez, fx, fy, fz = cx, cy, cz, -fx, -fy, -fz, -gx, -gy, -gz
     nx, ny, nz = ey * fz - ez * fy, ez * fx - ex * fz, ex * fy - ey * fx
     hits = 0
     for i in range(WIDTH):

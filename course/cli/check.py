@@ -6,7 +6,6 @@ import ast
 import json
 import re
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -164,21 +163,20 @@ def _print_lines(report: Report, folder: Path) -> None:
     """A line for each function that isn't right, the first thing that was found of it."""
     from course.grading.progress import line_of
     from course.grading.report import grouped
-    from course.grading.reports.formats import clean
 
     click.echo()
     for module in grouped(report):
         path = folder / f"{module.name}.py"
         if module.trouble and module.functions[0].state != "to do":
             line = _stopped(module.name, module.trouble) or 1
-            click.echo(f"{path}:{line}: error: {_short(clean(module.trouble.found))}")
+            click.echo(f"{path}:{line}: error: {_short(module.trouble.found)}")
             continue
         for function in module.functions:
             if function.state == "right":
                 continue
             severity = "warning" if function.state == "to do" else "error"
             told = function.told[:1] if severity == "error" else ()
-            text = "".join(f"{one.title}: {_short(clean(one.found))}" for one in told)
+            text = "".join(f"{one.title}: {_short(one.found)}" for one in told)
             stopped = _stopped(module.name, told[0]) if told else 0
             line = stopped or line_of(path, function.name)
             click.echo(f"{path}:{line}: {severity}: {function.name}: {text or function.state}")
@@ -186,9 +184,7 @@ def _print_lines(report: Report, folder: Path) -> None:
 
 def _stopped(module: str, result: Result) -> int:
     """Where Python has stopped: the last line of its traceback that is of the module's file; 0 if there is none."""
-    from course.grading.reports.formats import clean
-
-    lines = re.findall(rf"^ *File \"{module}\.py\", line (\d+)", clean(result.where), re.MULTILINE)
+    lines = re.findall(rf"^ *File \"{module}\.py\", line (\d+)", result.where, re.MULTILINE)
     return int(lines[-1]) if lines else 0
 
 
@@ -220,11 +216,6 @@ class _Printer:
         self._pending: list[Result] = []
 
     def result(self, result: Result) -> None:
-        from course.grading.reports.formats import clean
-
-        # Whoever follows an "again" line looks at somebody else's exceptions: nothing in them steers the terminal.
-        found, where, example = map(clean, (result.found, result.where, result.example))
-        result = replace(result, found=found, where=where, example=example)
         if self._pending and self._pending[0].function != result.function:
             self._flush()
         if result.module != self._module:
@@ -241,12 +232,11 @@ class _Printer:
 
     def end(self, report: Report) -> None:
         from course.grading.report import as_points
-        from course.grading.reports.formats import clean
 
         self._flush()
         for module, text in report.printed.items():
             click.echo(f"\n{module}.py printed:")
-            click.echo("\n".join(f"  | {line}" for line in clean(text).splitlines()[:12]))
+            click.echo("\n".join(f"  | {line}" for line in text.splitlines()[:12]))
         passed = sum(result.status == "passed" for result in report.results)
         click.secho(
             f"\n{as_points(report.points)} of {as_points(report.of)} points, "

@@ -24,6 +24,7 @@ from course.cli.options import INTERRUPTED
 from course.effects import CHECKOUT
 from course.errors import CourseError, CourseWarning
 from course.processes import READ_THERE, stay_apart
+from course.texts import clean
 
 SECTIONS = {
     "Learn": ("start", "check", "status", "studio", "portfolio"),
@@ -48,7 +49,7 @@ class Refusal(click.ClickException):
 
     def show(self, file: object = None) -> None:
         """Print the message as compilers do."""
-        click.echo(f"error: {self.message}", err=True)
+        click.echo(f"error: {clean(self.message)}", err=True)
 
 
 class Commands(click.Group):
@@ -145,7 +146,7 @@ def _told(
     """Print what is doubtful in the input in a line; other warnings look as they always do."""
     ours = issubclass(category, CourseWarning)
     text = warnings.formatwarning(message, category, filename, lineno, line)
-    click.echo(f"warning: {message}" if ours else text.rstrip(), file=file, err=True)
+    click.echo(clean(f"warning: {message}") if ours else text.rstrip(), file=file, err=True)
 
 
 @click.group(

@@ -37,9 +37,9 @@ def viva(
     """
     from course.grading.classes.submitted import read_one
     from course.grading.references import references
-    from course.grading.reports.formats import clean
     from course.grading.viva.asking import viva as questions
     from course.grading.worker.sandbox import protected, sandbox
+    from course.texts import clean
 
     solutions = PROJECT / "solutions"
     if not solutions.is_dir():

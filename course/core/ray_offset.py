@@ -30,15 +30,25 @@ if TYPE_CHECKING:
 OFFSET = 2.0**-19
 """Height above a surface at which rays begin, as a fraction of the largest coordinate of its triangle.
 
-Hit points and Embree's test have an error of a few rounding errors (2^-24 of the triangle's largest coordinate).
+Hit points and the casters' tests have an error of a few rounding errors (2^-24 of the triangle's largest coordinate).
 tests/geometry/test_surface.py measures it.
 """
 
-TILT, SLIVER, MOST = 0.5, 8.0, 1024.0
-"""The offset of a triangle with longest edge L and height H is at least OFFSET L clip(TILT (L / H - SLIVER), 0, MOST).
+SLIVER = 8.0
+"""A triangle is thin if its longest edge L is more than SLIVER times its height H."""
 
-Embree subtracts the ray's origin from the corners; the normal is a cross product of the rounded edges. If these are
-nearly parallel, rounding tilts the normal. The hit's error in height is about 2^-24 L^2 / H.
+LONG, MOST = 64.0, 1024.0
+"""The offset of a thin triangle is at least OFFSET L min(L / (LONG H), MOST), which is 2^-25 L^2 / H.
+
+A hit point has no larger error there than elsewhere: barycentrics inside the triangle make it a mean of the corners,
+whose rounding it has. But a caster takes the normal as the cross product of two edges, a and b long, with an angle c
+between them; products are rounded by up to 2^-24 a b. This turns the normal by 2^-24 / sin(c), and lifts the plane at
+the other end of the triangle by L times that. Casters take the two shorter edges. In a needle their angle is near 90
+degrees, and nothing is lifted. In a flat cap, whose corner lies over the middle of its longest edge, sin(c) = 4 H / L.
+Rays begin twice as high. Needles don't need it for themselves, but for those that lie beside them in one plane.
+
+A hit's barycentrics err, too, by so much that its point moves along the triangle: by up to 2^-24 L^2 / H, and by a
+twentieth of that on average.
 """
 
 INSET = 2.0
@@ -51,8 +61,8 @@ it lies in front for dihedral angles down to atan(1 / INSET) = 27 degrees.
 
 def offset_and_inset(
     p: Floats64, lengths: Floats64, twice_area: Floats64
-) -> tuple[Floats64, Floats64]:
-    """Offsets (T,) at which rays begin, and minimum barycentrics (3, T) of their origins.
+) -> tuple[Floats64, Floats64, Indices]:
+    """Offsets (T,) at which rays begin, minimum barycentrics (3, T) of their origins, and which triangles are thin.
 
     Parameters
     ----------
@@ -60,12 +70,19 @@ def offset_and_inset(
     lengths : (3, T) of the edges opposite the corners 0, 1 and 2
     twice_area : (T,)
     """
+    offset = OFFSET * np.abs(p).max(axis=(0, 1), initial=0)
     longest = lengths.max(axis=0, initial=0)
-    thinness = longest * longest / twice_area
-    tilt = longest * np.clip(TILT * (thinness - SLIVER), 0, MOST)
-    offset = OFFSET * np.maximum(np.abs(p).max(axis=(0, 1), initial=0), tilt)
+    thin = np.flatnonzero(longest * longest > SLIVER * twice_area)
+    if len(thin):
+        offset[thin] = np.maximum(offset[thin], raised(longest[thin], twice_area[thin]))
     # A barycentric is the distance from the edge / height, and height = twice the area / edge length.
-    return offset, np.minimum(INSET * offset * lengths / twice_area, 1 / 3)
+    return offset, np.minimum(INSET * offset * lengths / twice_area, 1 / 3), thin
+
+
+def raised(longest: Floats64, twice_area: Floats64) -> Floats64:
+    """Least offsets (T,) of thin triangles by their longest edges, see ``LONG``."""
+    lifted: Floats64 = OFFSET * longest
+    return lifted * np.minimum(longest * longest / (LONG * twice_area), MOST)
 
 
 def pull_off_edges(

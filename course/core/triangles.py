@@ -31,6 +31,7 @@ class Triangles:
     largest_sine : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat-shaded
     material : (T,) uint16 material numbers
     parts : (number of vertices, number of triangles, true if convex) of each object, in the order of the triangles
+    largest_raised : largest offset of thin triangles (``course.core.ray_offset``), 0 if there are none
     """
 
     planes: Floats32
@@ -41,3 +42,4 @@ class Triangles:
     largest_sine: float
     material: Materials
     parts: tuple[tuple[int, int, bool], ...] = ()
+    largest_raised: float = 0.0

@@ -82,7 +82,13 @@ class Rows:
 
 @dataclass(frozen=True)
 class Tables:
-    """One part's share of ``Triangles``; ``kept`` (T,) are the numbers of the mesh's triangles that have an area."""
+    """One part's share of ``Triangles``.
+
+    Attributes
+    ----------
+    kept : (T,) the numbers of the mesh's triangles that have an area
+    largest_sine, largest_raised : see ``Triangles``
+    """
 
     part: Part
     kept: NDArray[np.intp]
@@ -90,6 +96,7 @@ class Tables:
     triangles: Numbers
     rows: Rows
     largest_sine: float
+    largest_raised: float
 
 
 def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> tuple[list[Tables], Rows]:
@@ -121,6 +128,7 @@ def join_tables(tables: Sequence[Tables], rows: Rows, bulges: bool = True) -> Tr
         corner_normals=rows.corner_normals if smooth else None,
         bulge=rows.bulge if smooth and bulges else None,
         largest_sine=max(t.largest_sine for t in tables),
+        largest_raised=max(t.largest_raised for t in tables),
         material=np.repeat(np.array([t.part.material for t in tables], np.uint16), counts),
         parts=tuple((len(t.vertices), len(t.triangles), t.part.convex) for t in tables),
     )
@@ -170,7 +178,7 @@ def _tables(part: Part, rows: Rows, smooth: bool, least_offset: float) -> Tables
     vertices = mesh.vertices.astype(np.float32)
     normals = mesh.normals
     unit = normals is not None and _are_unit(normals)
-    kept, count, sine = [np.empty(0, np.intp)], 0, 0.0
+    kept, count, largest = [np.empty(0, np.intp)], 0, (0.0, 0.0)
     for first in range(0, len(mesh.triangles), CHUNK):
         corners = mesh.triangles[first : first + CHUNK]
         p = np.ascontiguousarray(np.moveaxis(vertices[corners], 0, 2), np.float64)
@@ -180,27 +188,32 @@ def _tables(part: Part, rows: Rows, smooth: bool, least_offset: float) -> Tables
             corners, p, ng = corners[has_area], p[:, :, has_area], ng[:, has_area]
         own = None if normals is None else _normals(normals[corners], unit)
         chunk = rows[count : count + len(corners)]
-        sine = max(sine, _fill(chunk, p, ng, own, smooth, least_offset))
+        found = _fill(chunk, p, ng, mesh.vertices, corners, own, smooth, least_offset)
+        largest = max(largest[0], found[0]), max(largest[1], found[1])
         kept.append(first + has_area)
         count += len(has_area)
-    found = np.concatenate(kept)
-    triangles = mesh.triangles if count == len(mesh.triangles) else mesh.triangles[found]
-    return Tables(part, found, vertices, triangles.astype(np.int32, copy=False), rows[:count], sine)
+    numbers = np.concatenate(kept)
+    triangles = mesh.triangles if count == len(mesh.triangles) else mesh.triangles[numbers]
+    whole = triangles.astype(np.int32, copy=False)
+    return Tables(part, numbers, vertices, whole, rows[:count], *largest)
 
 
 def _fill(
     rows: Rows,
     p: Floats64,
     ng: Floats64,
+    vertices: Floats64,
+    corners: NDArray[np.integer],
     normals: tuple[Floats64, Floats64] | None,
     smooth: bool,
     least_offset: float,
-) -> float:
-    """Fill the rows of T triangles; returns the sine of the largest angle between ng and a corner normal.
+) -> tuple[float, float]:
+    """Fill the rows of T triangles; returns ``largest_sine`` and ``largest_raised`` of ``Tables``.
 
     Parameters
     ----------
     p, ng : (3, 3, T) corners and (3, T) cross products of edges, none of them 0
+    vertices, corners : the mesh's, not rounded, and (T, 3) their numbers
     normals : see ``_normals``; None if the mesh has none
     smooth : true if any part has normals
     """
@@ -208,8 +221,11 @@ def _fill(
     twice_area = np.sqrt(dot(ng, ng))
     ng = ng / twice_area
     lengths = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
-    offset, inset = offset_and_inset(p, lengths, twice_area)
-    largest_sine = 0.0
+    offset, inset, thin = offset_and_inset(p, lengths, twice_area)
+    largest_sine = largest_raised = 0.0
+    if len(thin):
+        largest_raised = float(offset[thin].max())
+        ng[:, thin] = _unrounded(vertices[corners[thin]], ng[:, thin])
     flat = np.ones(p.shape[2])
     if smooth:
         n = unit = np.repeat(ng[None], 3, axis=0)
@@ -226,7 +242,20 @@ def _fill(
     _put(rows.planes, p[0], ng, np.maximum(offset, least_offset)[None], flat[None])
     _put(rows.edges, e1, e2, inset.max(axis=0)[None], np.zeros((1, len(flat))))
     _put(rows.inset, inset)
-    return largest_sine
+    return largest_sine, largest_raised
+
+
+def _unrounded(corners: Floats64, rounded: Floats64) -> Floats64:
+    """Unit normals (3, T) of thin triangles (T, 3 corners, 3) before their corners were rounded to float32.
+
+    Rounding turns a thin triangle about its length, though no point of it moves by more than its corners. Its rays
+    leave the surface that it stands for: above the rounded triangle, they would go down into its neighbours.
+    ``rounded``: (3, T), the normals afterwards, which those without area before keep
+    """
+    p = np.moveaxis(corners, 0, 2)
+    ng = cross(p[1] - p[0], p[2] - p[0])
+    length = np.sqrt(dot(ng, ng))
+    return np.where(length > 0, ng / np.maximum(length, np.finfo(np.float64).tiny), rounded)
 
 
 def _are_unit(normals: Floats64) -> bool:

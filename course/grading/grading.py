@@ -12,7 +12,7 @@ from course import __version__
 from course.grading.catalog import module_checks, with_whole
 from course.grading.checks.check import Caller, Check, ModuleChecks, References
 from course.grading.checks.lending import Lenders
-from course.grading.checks.result import Result, Status, troubled
+from course.grading.checks.result import Result, Status, cleaned, troubled
 from course.grading.checks.running import run_checks
 from course.grading.errors import StudentError
 from course.grading.pictures.whole import ALL, NAME, Together
@@ -23,6 +23,7 @@ from course.grading.worker.client import Worker
 from course.grading.worker.limits import Budget, Limits, Patience
 from course.grading.worker.sandbox import Sandbox, sandbox
 from course.modules import COURSE
+from course.texts import clean
 
 
 def grade(
@@ -67,6 +68,7 @@ def grade(
         return Worker(module, _solution(module).read_bytes(), limits, shut_in, budget=budget)
 
     def tell(result: Result) -> None:
+        result = cleaned(result)
         results.append(result)
         if each is not None:
             each(result)
@@ -105,7 +107,7 @@ def grade(
             if own is not None:
                 # No module's code goes on while another's is checked; the picture of all starts it again.
                 own.close()
-                printed |= {module: own.printed} if own.printed else {}
+                printed |= {module: clean(own.printed)} if own.printed else {}
     return Report(
         student,
         tuple(results),

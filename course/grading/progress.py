@@ -17,7 +17,6 @@ from course.errors import OutputError
 from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.report import FunctionResults, docs_page, findings, grouped, reproduce
-from course.grading.reports.formats import clean
 from course.grading.submissions import find_modules, read_found
 from course.grading.worker.sandbox import plain
 from course.modules import COURSE, WARM_UP
@@ -128,8 +127,8 @@ def _told(function: FunctionResults) -> dict[str, Any]:
     if function.state in ("wrong", "undecided") and function.told:
         first = function.told[0]
         found = dict(findings(first, 1))
-        told["title"] = clean(first.found) if first.module_wide else first.title
-        told["found"] = clean("; ".join(filter(None, (found.get("found"), found.get("hint")))))
+        told["title"] = first.found if first.module_wide else first.title
+        told["found"] = "; ".join(filter(None, (found.get("found"), found.get("hint"))))
         told["again"] = f"{reproduce(first, 0)} --hint 2"
     return told
 

@@ -26,7 +26,7 @@ def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
 SLENDER = 16.0
 """A box whose length is more than this many times its other extents is cut into pieces of that many at most.
 
-Rays leave long thin triangles from further above them, see ``course.core.triangles``.
+Rays leave long thin triangles from further above them, see ``course.core.ray_offset``.
 """
 
 

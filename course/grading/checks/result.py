@@ -1,11 +1,12 @@
 """How a check ended: what is shown, kept and counted of it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
 from course.grading.checks.check import Check, Figure
 from course.grading.errors import StudentError
+from course.texts import clean
 
 NOT_WRITTEN = "not written yet"
 """Of a function that is still the stub's."""
@@ -69,6 +70,16 @@ class Result:
     def id(self) -> str:
         """Such as "thin_lens.point_on_disk/uniform"."""
         return f"{self.module}.{self.function}/{self.check}"
+
+
+_TOLD = ("expected", "found", "where", "hint", "example", "says", "instructor")
+"""What may hold a student's text."""
+
+
+def cleaned(result: Result) -> Result:
+    """The result with texts that are fit for every report and terminal."""
+    told: dict[str, Any] = {name: clean(getattr(result, name)) for name in _TOLD}
+    return replace(result, **told)
 
 
 def troubled(module: str, check: Check, error: StudentError) -> Result:

@@ -1,72 +1,99 @@
 """A module from a notebook: what its functions come to use, and nothing of what was tried out beside them.
 
-Drawing, timing and `%magic` are right in a notebook, and would fail where a module is imported.
+Drawing, timing and rendering are right in a notebook, and would fail where a module is imported. Nothing of a notebook
+is run here: its text is taken apart, in a process of its own.
 """
 
-import ast
-import json
-import re
-from typing import Any
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import TYPE_CHECKING
 
 from course.grading.classes.engines import apart
-from course.grading.classes.reachable import parsed, reachable
-from course.grading.release.stubs import first_line
 from course.grading.submissions import LARGEST_FILE, SubmissionError
+from course.modules import COURSE
 
-_MAGIC = re.compile(r"\s*(?:%{1,2}[A-Za-z]|!(?!=)|\?)")
-"""How a line for the notebook's own machinery begins."""
+if TYPE_CHECKING:
+    from course.grading.classes.cells import Statement
 
+SECONDS = 20.0
+"""That a notebook may take to read: one of a thousand cells takes two."""
 
-def notebook_source(module: str, name: str, content: bytes) -> bytes:
-    """The file of a module that a notebook holds; ``SubmissionError`` where it is none, or defines no function."""
-    (source,) = apart(_converted, [(module, content)]).values()
-    if not source:
-        why = (
-            "is no notebook that can be read" if source is None else "defines none of its functions"
-        )
-        raise SubmissionError(f"{name}: {why}; hand in {module}.py")
-    return source
+MOST_TOLD = 8
+"""Places that are told of one notebook."""
 
 
-def _converted(work: tuple[str, bytes]) -> bytes | None:
-    """None for what is no notebook; empty where no function is defined."""
-    module, content = work
-    try:
-        cells = _code_cells(json.loads(content))
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        return None
-    # A cell that is no Python is left out, as a notebook shows its mistake and goes on.
-    text = "\n\n".join(cell for cell in cells if parsed(cell) is not None)
-    tree = parsed(text)
-    if tree is None:
-        return None
-    lines = text.splitlines()
-    parts = {
-        node.lineno: "\n".join(lines[first_line(node) - 1 : node.end_lineno])
-        for node in reachable(module, tree, imports=True)
-    }
-    # What is on from the future comes first, or not at all.
-    future = [
-        ast.unparse(node)
-        for node in tree.body
-        if isinstance(node, ast.ImportFrom) and node.module == "__future__"
-    ]
-    if not parts:
-        return b""
-    source = "\n\n".join([*dict.fromkeys(future), *(parts[line] for line in sorted(parts))])
-    return source.encode("utf-8", "replace")[:LARGEST_FILE] + b"\n"
+@dataclass(frozen=True)
+class Notebook:
+    """The modules that a notebook holds.
+
+    Attributes
+    ----------
+    sources : module -> its text, made from the cells
+    files : module -> its text, as a cell writes it into a file of the module's name
+    told : what was left out of the cells
+    """
+
+    sources: dict[str, bytes] = field(default_factory=dict)
+    files: dict[str, bytes] = field(default_factory=dict)
+    told: tuple[str, ...] = ()
 
 
-def _code_cells(notebook: dict[str, Any]) -> list[str]:
-    found = []
-    for cell in notebook["cells"]:
-        if cell["cell_type"] == "code":
-            source = cell["source"]
-            found.append(_without_magic(source if isinstance(source, str) else "".join(source)))
+def read_notebook(name: str, content: bytes, modules: Iterable[str]) -> Notebook:
+    """Read some modules from a notebook; ``SubmissionError`` where it is none, or can't be read in time.
+
+    ``name``: of the file, for messages
+    """
+    (found,) = apart(_converted, [(content, tuple(modules))], seconds=SECONDS).values()
+    if found is None:
+        raise SubmissionError(f"{name}: is no notebook that can be read within {SECONDS:g} s")
+    if isinstance(found, str):
+        raise SubmissionError(f"{name}: is no notebook that can be read: {found}")
     return found
 
 
-def _without_magic(cell: str) -> str:
-    if cell.lstrip().startswith("%%"):
-        return ""
-    return "\n".join("" if _MAGIC.match(line) else line for line in cell.splitlines())
+def _converted(work: tuple[bytes, tuple[str, ...]]) -> Notebook | str:
+    """The notebook, or why it is none."""
+    # IPython takes a fifth of a second to import.
+    from course.grading.classes.cells import NO_NOTEBOOK, read_cells
+    from course.grading.classes.needed import Code
+
+    content, modules = work
+    try:
+        cells = read_cells(content)
+    except NO_NOTEBOOK as error:
+        return str(error)[:80] if isinstance(error, ValueError) else "it has no cells"
+    files = {
+        module: cells.files[f"{module}.py"].encode("utf-8", "replace")[:LARGEST_FILE]
+        for module in modules
+        if f"{module}.py" in cells.files
+    }
+    others = [file for file in cells.files if file.removesuffix(".py") not in COURSE]
+    told = [*cells.told, *(f"{file}, which a cell writes, is left out" for file in others)]
+    code = Code(cells.statements, told)
+    sources: dict[str, bytes] = {}
+    left: list[Statement] = []
+    for module in modules:
+        text, beside = code.module(COURSE[module])
+        if text:
+            sources[module] = text.encode("utf-8", "replace")[:LARGEST_FILE] + b"\n"
+            left = beside if len(sources) == 1 else [one for one in left if one in beside]
+    if sources:
+        told += _places(left)
+    more = [f"{len(told) - MOST_TOLD} places more"] if len(told) > MOST_TOLD else []
+    return Notebook(sources, files, (*told[:MOST_TOLD], *more))
+
+
+def _places(left: list[Statement]) -> list[str]:
+    """Where statements stand that no function needs, in a line."""
+    places = []
+    for cell, statements in groupby(left, key=lambda one: one.cell):
+        lines = [str(one.line) for one in statements]
+        more = ["..."] if len(lines) > MOST_TOLD else []
+        listed = ", ".join(lines[:MOST_TOLD] + more)
+        places.append(f"cell {cell}, line{'' if len(lines) == 1 else 's'} {listed}")
+    if len(places) > MOST_TOLD:
+        places[MOST_TOLD:] = [f"and {len(places) - MOST_TOLD} cells more"]
+    return [f"left out, for no function needs it: {'; '.join(places)}"] if places else []

@@ -3,16 +3,14 @@
 A folder, an archive or a file named after its student is a submission, and so is what Canvas and Moodle name in their
 own way. Nobody knows what students hand in, so whatever is wrong with one of them is kept as its trouble and stops
 nothing; and nothing is left out but what a file manager has made.
-
-Which files of a submission are its modules their names say, and where no name tells, what they define.
 """
 
-import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from course.errors import CourseError
+from course.grading.classes.choosing import choose, content_of, modules_defined
 from course.grading.classes.engines import LARGEST_SPACE, apart
 from course.grading.classes.entries import (
     LARGEST_ARCHIVE,
@@ -24,37 +22,20 @@ from course.grading.classes.entries import (
     unfolded,
 )
 from course.grading.classes.names import (
-    NOTEBOOK,
-    PYTHON,
-    Named,
     read_name,
     safe_name,
     same_name,
     sent,
     short_name,
 )
-from course.grading.classes.notebooks import notebook_source
-from course.grading.submissions import LARGEST_FILE, SubmissionError
+from course.grading.submissions import SubmissionError
 from course.modules import COURSE
-
-LARGEST_NOTEBOOK = 20_000_000
-"""Bytes; pictures are part of a notebook."""
-
-MOST_READ = 50
-"""Files that are looked into where no name tells."""
-
-MOST_LISTED = 4
+from course.texts import clean_line
 
 READING = 60.0
 """Seconds that reading one submission may take if there are archives in it."""
 
 _ENDLESS = f"its archives can't be read within {READING:g} s and {LARGEST_SPACE // 10**9} GB"
-
-_DEFINED = re.compile(rb'(?:^|"|\\n)(?:async\s+)?def\s+(\w+)', re.MULTILINE)
-"""In a program at the beginning of a line, in a notebook at that of a string or after an escaped end of line."""
-
-_Sources = dict[str, bytes]
-"""Module -> the file."""
 
 _IGNORED = ("__MACOSX", "__pycache__", "Thumbs.db", "desktop.ini")
 
@@ -192,9 +173,12 @@ def _module_of(path: Path, modules: tuple[str, ...]) -> str:
     if len(modules) == 1:
         return modules[0]
     try:
-        return module_defined(file_reader(path)(LARGEST_FILE), modules)
+        found = modules_defined(
+            content_of(Entry(PurePosixPath(path.name), file_reader(path))), modules
+        )
     except SubmissionError:
         return ""
+    return found[0] if len(found) == 1 else ""
 
 
 def _mark_clashes(found: list[_Handed]) -> None:
@@ -260,11 +244,12 @@ def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission
             sources = choose([*unfolded(_entries(handed), remarks)], modules, remarks)
     except CourseError as error:
         trouble, remarks = str(error), []
+    # Whatever prints them: what a student may choose, such as names in an archive, is cleaned here.
     trouble, *told = (
-        " ".join(_without_folders(text, handed).splitlines()) for text in (trouble, *remarks)
+        clean_line(_without_folders(text, handed)) for text in (trouble, *handed.remarks, *remarks)
     )
-    remarks, names = [*handed.remarks, *told], (student, *handed.names)
-    return Submission(student, paths, sources, trouble, tuple(remarks), names, handed.number)
+    names = (student, *handed.names)
+    return Submission(student, paths, sources, trouble, tuple(told), names, handed.number)
 
 
 def _entries(handed: _Handed) -> Iterator[Entry]:
@@ -285,114 +270,3 @@ def _without_folders(text: str, handed: _Handed) -> str:
     for path, _ in handed.parts:
         text = text.replace(f"{path}: ", "").replace(f"{path}/", "").replace(f"{path.parent}/", "")
     return text
-
-
-def choose(entries: Sequence[Entry], modules: tuple[str, ...], remarks: list[str]) -> _Sources:
-    """The modules among the files of a submission, by name.
-
-    Raises SubmissionError: there are two files for one module, none for any, or one that can't be read.
-    ``remarks``: what is already known to be left out; gets what is guessed, and what else is left out
-    """
-    sources: _Sources = {}
-    named = [(entry, read_name(entry.path.name, modules)) for entry in entries]
-    for module in modules:
-        candidates = [(entry, name) for entry, name in named if name.module == module]
-        if candidates:
-            sources[module] = _taken(module, candidates, remarks)
-    sources = sources or _taken_by_content(entries, modules, remarks)
-    if not sources:
-        raise SubmissionError(_nothing(entries, modules, remarks))
-    return sources
-
-
-def module_defined(source: bytes, modules: Iterable[str]) -> str:
-    """The module whose functions a file or notebook defines most of; empty if there is none, or more than one."""
-    defined = {name.decode() for name in _DEFINED.findall(source)}
-    count = {module: len(defined & {*COURSE[module]}) for module in modules}
-    most = max(count.values(), default=0)
-    found = [module for module, number in count.items() if number == most > 0]
-    return found[0] if len(found) == 1 else ""
-
-
-def _taken(module: str, candidates: list[tuple[Entry, Named]], remarks: list[str]) -> bytes:
-    def rank(candidate: tuple[Entry, Named]) -> tuple[bool, bool, int]:
-        entry, name = candidate
-        # A name that is exact goes before one that isn't, a file at the top before one that lies deeper.
-        return name.suffix == NOTEBOOK, not name.exact, len(entry.path.parts)
-
-    best = min(map(rank, candidates))
-    first = [entry for entry, name in candidates if rank((entry, name)) == best]
-    if len(first) > 1:
-        raise SubmissionError(f"{module}.py is in it more than once: {_listed(first)}")
-    entry = first[0]
-    source = _source(module, entry)
-    if entry.path.name != f"{module}.py":
-        how = " from its cells" if _is_notebook(entry) else ""
-        remarks.append(f"{entry.path} was graded{how} as {module}.py")
-    others = [other for other, _ in candidates if other is not entry]
-    if others:
-        remarks.append(f"not graded, for {entry.path} was: {_listed(others)}")
-    return source
-
-
-def _taken_by_content(
-    entries: Sequence[Entry], modules: Sequence[str], remarks: list[str]
-) -> _Sources:
-    sources: _Sources = {}
-    # A program goes before a notebook; editors that hide suffixes save it as a text.
-    for suffixes in ((PYTHON, ".txt"), (NOTEBOOK,)):
-        files = [entry for entry in entries if entry.path.suffix.lower() in suffixes]
-        by_module: dict[str, list[tuple[Entry, bytes]]] = {}
-        for entry in files[:MOST_READ]:
-            try:
-                source = _content(entry)
-            except SubmissionError as error:
-                remarks.append(str(error))
-                continue
-            module = module_defined(source, modules)
-            if module and module not in sources:
-                by_module.setdefault(module, []).append((entry, source))
-        for module, found in by_module.items():
-            if len(found) > 1:
-                listed = _listed([entry for entry, _ in found])
-                raise SubmissionError(
-                    f"{listed} define functions of {module}; name one {module}.py"
-                )
-            ((entry, source),) = found
-            notebook = NOTEBOOK in suffixes
-            sources[module] = (
-                notebook_source(module, str(entry.path), source) if notebook else source
-            )
-            how = " from its cells" if notebook else ""
-            remarks.append(
-                f"{entry.path} was graded{how} as {module}.py, whose functions it defines"
-            )
-    return sources
-
-
-def _content(entry: Entry) -> bytes:
-    return entry.read(LARGEST_NOTEBOOK if _is_notebook(entry) else LARGEST_FILE)
-
-
-def _is_notebook(entry: Entry) -> bool:
-    return entry.path.name.lower().endswith(NOTEBOOK)
-
-
-def _source(module: str, entry: Entry) -> bytes:
-    source = _content(entry)
-    return notebook_source(module, str(entry.path), source) if _is_notebook(entry) else source
-
-
-def _nothing(entries: Sequence[Entry], modules: Sequence[str], remarks: Sequence[str]) -> str:
-    if remarks:
-        return "nothing in it can be graded; " + "; ".join(remarks)
-    files = [entry for entry in entries if not archive_suffix(entry.path.name)] or entries
-    holds = f"it holds {_listed(files)}" if files else "it is empty"
-    wanted = f"{modules[0]}.py" if len(modules) == 1 else f"a module, such as {modules[0]}.py"
-    return f"there is no file for {wanted}: {holds}"
-
-
-def _listed(entries: Sequence[Entry]) -> str:
-    names = [str(entry.path) for entry in entries[:MOST_LISTED]]
-    more = len(entries) - len(names)
-    return ", ".join(names) + (f" and {more} more" if more > 0 else "")

@@ -19,9 +19,10 @@ from course.grading.checks.result import Result, Status
 from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Listed, Matched
 from course.grading.report import FunctionResults, Report, ending, grouped
-from course.grading.reports.formats import clean, finite
+from course.grading.reports.formats import finite
 from course.grading.reports.insight import changes, misconceptions, without_name
 from course.grading.reports.page import render
+from course.texts import clean
 
 MARKS = ("raw", "adjusted", "final")
 """Columns of the score by a policy."""

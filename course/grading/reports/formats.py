@@ -5,7 +5,6 @@ Texts are fit for any file, and numbers that are none are 0: student code has wr
 
 import json
 import math
-import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -24,12 +23,10 @@ from course.grading.report import (
     reproduce,
     unstarted,
 )
+from course.texts import clean
 
 FORMAT = 1
 """Of our own JSON; goes up when a key changes its meaning or goes away."""
-
-LONGEST = 20_000
-"""Characters of one text that a report keeps; a program can print without end."""
 
 IMAGES_BYTES = 500_000
 """All pictures together: PrairieLearn takes no results above 1 MB."""
@@ -46,15 +43,6 @@ ENLARGED = 320
 _NO_ROOM = (
     "what was found is left out, for PrairieLearn takes no more; the next line finds it again"
 )
-_ESCAPES = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]")
-_UNFIT = re.compile(
-    # What XML 1.0 doesn't allow (controls, lone surrogates, U+FFFE and U+FFFF) and the C1 controls ...
-    "[^\t\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
-    # ... and what turns the direction of the text around it, so that it reads otherwise than it is.
-    "|[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]"
-)
-_REPLACEMENT = "\ufffd"
-
 _OF_REPORTS = ("student", "version", "seed", "seconds", "score", "points", "of", "trouble")
 _OF_RESULTS = (
     *("id", "module", "function", "check", "title", "kind", "status", "points", "of"),
@@ -62,20 +50,6 @@ _OF_RESULTS = (
     *("module_wide", "broken", "seconds"),
 )
 _ERRORS = (Status.TIMEOUT, Status.CRASHED, Status.GRADER_ERROR)
-
-
-def clean(text: str, longest: int = LONGEST) -> str:
-    """The text without terminal colours; what no file can hold is U+FFFD, the replacement character.
-
-    The result encodes as UTF-8 and may stand in XML 1.0; it is not escaped for HTML, XML or a spreadsheet.
-    ``longest``: from how many characters on the middle of the text is left out
-    """
-    over = len(text) - longest
-    if over > 0:
-        half = longest // 2
-        text = f"{text[:half]}\n[{over} characters left out]\n{text[len(text) - half :]}"
-    text = text.replace("\r\n", "\n").replace("\r", "\n")
-    return _UNFIT.sub(_REPLACEMENT, _ESCAPES.sub("", text))
 
 
 def finite(number: float) -> float:

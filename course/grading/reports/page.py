@@ -22,8 +22,8 @@ from course.grading.report import (
     reproduce,
     unstarted,
 )
-from course.grading.reports.formats import clean
 from course.grading.reports.order import place
+from course.texts import clean
 
 
 def as_page(report: Report) -> str:

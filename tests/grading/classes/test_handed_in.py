@@ -12,7 +12,7 @@ import pytest
 from course.grading.classes import entries
 from course.grading.classes.entries import Entry, unfolded
 from course.grading.classes.names import read_name, sent
-from course.grading.classes.notebooks import notebook_source
+from course.grading.classes.notebooks import read_notebook
 from course.grading.classes.submitted import Submission, find_submissions
 from course.grading.submissions import SubmissionError
 
@@ -318,7 +318,10 @@ def test_a_notebook_gives_what_its_functions_use(tmp_path: Path) -> None:
     space: dict[str, object] = {}
     exec(source, space)  # the test's own text
     assert {"np", "SCALE", "helper", "point_on_disk"} <= set(space)
-    assert found.remarks == ("Thin Lens.ipynb was graded from its cells as thin_lens.py",)
+    assert found.remarks == (
+        "Thin Lens.ipynb was graded from its cells as thin_lens.py",
+        "Thin Lens.ipynb: cell 6, line 1: is no Python, so the cell is left out",
+    )
 
 
 def test_a_notebook_or_a_text_of_any_name_is_known_by_its_functions(tmp_path: Path) -> None:
@@ -333,7 +336,7 @@ def test_a_notebook_or_a_text_of_any_name_is_known_by_its_functions(tmp_path: Pa
     for name in ("ada", "bob"):
         assert b"def point_on_disk" in found[name].sources["thin_lens"]
         assert b"1/0" not in found[name].sources["thin_lens"]
-    (remark,) = found["ada"].remarks
+    remark, *_ = found["ada"].remarks
     assert "Untitled.ipynb was graded from its cells as thin_lens.py" in remark
     assert found["cy"].sources == {"thin_lens": LENS}
     assert "it holds a.ipynb" in found["dan"].trouble
@@ -345,10 +348,20 @@ def test_a_notebook_or_a_text_of_any_name_is_known_by_its_functions(tmp_path: Pa
     [
         (b"{}", "is no notebook"),
         (b"\xff", "is no notebook"),
-        (notebook("x = 1"), "defines none of its functions"),
         (b'{"cells": ' + b"[" * 100_000, "is no notebook"),
+        (b'{"cells": [{"cell_type": "code"}]}', "is no notebook"),
+        (b"[]", "is no notebook"),
     ],
 )
 def test_notebooks_that_are_none(content: bytes, why: str) -> None:
     with pytest.raises(SubmissionError, match=why):
-        notebook_source("thin_lens", "work.ipynb", content)
+        read_notebook("work.ipynb", content, ["thin_lens"])
+
+
+def test_a_notebook_without_the_functions_says_what_it_left_out(tmp_path: Path) -> None:
+    put(tmp_path / "ada", **{"thin_lens.ipynb": notebook("x = 1", "%run lens.py")})
+    (found,) = find_submissions(tmp_path, MODULES)
+    assert found.trouble == (
+        "thin_lens.ipynb: defines none of its functions; hand in thin_lens.py; "
+        "cell 3, line 1: left out: %run lens.py"
+    )
