@@ -79,6 +79,7 @@ class Process:
             "limits": {
                 "CPU": self._limits.cpu_seconds,
                 "AS": self._limits.memory,
+                "DATA": self._limits.memory,
                 "CORE": 0,
                 "FSIZE": 0,
                 "NOFILE": 64,
