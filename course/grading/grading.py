@@ -60,9 +60,13 @@ def grade(
     # Of some checks alone the first may be a large one.
     patience = {module: Patience(limits.call_seconds, only is None) for module in chosen}
 
+    yardsticks: dict[str, Worker] = {}
+
     def worker(module: str, **more: Any) -> Worker:
         source, shared = sources.get(module, b""), patience[module]
-        return Worker(module, source, limits, shut_in, patience=shared, budget=budget, **more)
+        found = Worker(module, source, limits, shut_in, patience=shared, budget=budget, **more)
+        found.yardstick = yardsticks.get(module)
+        return found
 
     def right(module: str, budget: Budget | None = None) -> Worker:
         return Worker(module, _solution(module).read_bytes(), limits, shut_in, budget=budget)
@@ -96,6 +100,8 @@ def grade(
                 right(module) if _is_solved(module) else nullcontext() as yardstick,
                 _lenders(module, worker, partial(right, module, budget)) as lenders,
             ):
+                if own is not None and yardstick is not None:
+                    own.yardstick = yardsticks[module] = yardstick
                 for result in (
                     _unusable(checks, error, only)
                     if error is not None
@@ -107,6 +113,7 @@ def grade(
             if own is not None:
                 # No module's code goes on while another's is checked; the picture of all starts it again.
                 own.close()
+                own.yardstick = None
                 printed |= {module: clean(own.printed)} if own.printed else {}
     return Report(
         student,

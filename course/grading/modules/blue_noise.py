@@ -309,7 +309,7 @@ TIE = 1e-5
 
 def _start(draw: Draw) -> Mapping[str, Any]:
     """Small pictures, neither of them square, and points as wide as in masks."""
-    low, high = (2, 4) if draw.simple else (5, 14)
+    low, high = (2, 4) if draw.simple else (5, 11)
     height, width = draw.rng.integers(low, high, 2)
     u = draw.rng.permutation(height * width).reshape(height, width) / (height * width)
     return {"u": u, "sigma": 1.5 if draw.simple else float(draw.rng.uniform(1, 2))}

@@ -3,6 +3,8 @@
 import threading
 from collections import Counter
 from collections.abc import Sequence
+from contextlib import suppress
+from functools import partial
 from time import monotonic
 from typing import Any, NamedTuple
 
@@ -31,6 +33,12 @@ class _Call(NamedTuple):
     named: dict[str, Any]
     look: bool = False
 
+
+LOOPS = 1000
+"""Times as long as the reference a loop in plain Python takes at the most, by what operations on numbers cost in it."""
+
+MOST_SECONDS = 60.0
+"""Of processor time that any call may take."""
 
 _Reply = tuple[list[Any], dict[str, Any]]
 """Values and head."""
@@ -68,6 +76,8 @@ class Worker:
         trouble: StudentError | None = None,
     ) -> None:
         self.module = module
+        self.yardstick: Worker | None = None
+        """The reference's: a call that is late may take as long as a plain loop would, by what it takes there."""
         self._lender, self._lent = lender, tuple(lent)
         self.borrowed = False
         """Whether a function that is lent has been asked for."""
@@ -190,6 +200,7 @@ class Worker:
 
     def _once(self, call: _Call, deadline: float) -> _Reply:
         function, arguments, named, look = call
+        self._process.usual = partial(self._usual, call)
         message = pack(
             {"function": function, "names": [*named], "look": look}, [*arguments, *named.values()]
         )
@@ -201,6 +212,22 @@ class Worker:
         if len(values) != 1 + (len(arguments) if look else 0):
             raise self._process.lost("its replies are not replies to calls")
         return values, head
+
+    def _usual(self, call: _Call) -> float:
+        """Seconds that a plain loop would take for a call, by what the reference takes; 0 where that is not known."""
+        if self.yardstick is None:
+            return 0.0
+        with suppress(StudentError):
+            return min(LOOPS * self.yardstick.seconds(call), MOST_SECONDS)
+        return 0.0
+
+    def seconds(self, call: _Call) -> float:
+        """How long a call takes: by the clock, for those of right functions are too short to count ticks."""
+        with self._lock:
+            self._ready()
+            begun = monotonic()
+            self._once(call, begun + self.limits.call_seconds)
+            return monotonic() - begun
 
     def _ready(self) -> None:
         """Start the process if there is none; once more if it ends in importing the file."""
@@ -234,6 +261,7 @@ class Worker:
     def _started(self, seconds: float) -> dict[str, Any]:
         """The head that a new process sends when it has imported the file."""
         self._start()
+        self._process.usual = float
         head, _ = self._process.read(monotonic() + seconds)
         self._raise(head)
         return head

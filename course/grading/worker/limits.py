@@ -41,7 +41,8 @@ class Limits:
 
     Attributes
     ----------
-    call_seconds : wall clock of importing the file, and of one call at most; ``Patience`` says when it is less
+    call_seconds : processor time of importing the file, and of one call, if a loop in plain Python would not take
+        longer; ``Patience`` says when it is less
     cpu_seconds : processor time of one worker process
     memory : bytes: the address space of each process, and what all workers of a submission may hold together
     deaths : processes that the calls of one function may end before it isn't called again
@@ -49,7 +50,7 @@ class Limits:
     """
 
     call_seconds: float = 10.0
-    cpu_seconds: int = 60
+    cpu_seconds: int = 600
     memory: int = 2 << 30
     deaths: int = 4
     submission_seconds: float | None = None

@@ -11,10 +11,10 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from time import monotonic
 from typing import Any
 
 from course.grading.errors import StudentError
+from course.grading.worker.clock import Clock, Used
 from course.grading.worker.framing import BrokenMessage, unpack
 from course.grading.worker.limits import Budget, Limits
 from course.grading.worker.sandbox import Sandbox, worker_user
@@ -31,9 +31,6 @@ SHOWN = 4000
 
 MOST_PRINTED = 1 << 26
 """Bytes that one process may print: to read more would keep the grader itself busy."""
-
-GRACE = 1.0
-"""Seconds after a deadline for what is already under way: the grader may look late, where the machine is busy."""
 
 
 class Process:
@@ -56,6 +53,9 @@ class Process:
         self._replies = -1
         self._printed = bytearray()
         self._drain: threading.Thread | None = None
+        self._used = Used()
+        self.usual: Callable[[], float] = float
+        """Seconds that the call which it is at may take, for what a right function takes on this machine."""
 
     @property
     def running(self) -> bool:
@@ -113,6 +113,7 @@ class Process:
         )
         self._drain.start()
         self._budget.watch(self._process.pid, partial(self._end, self._process))
+        self._used = Used(self._process.pid)
 
     @property
     def ended(self) -> str:
@@ -140,13 +141,14 @@ class Process:
         """Send a message.
 
         Raises StudentError: it was not taken in time, or the process has ended.
-        ``deadline``: ``time.monotonic()`` at which the process is ended
+        ``deadline``: ``time.monotonic()`` at which the process is ended, if it has had a processor for so long
         """
+        self._used.mark()
         assert self._process is not None
         assert self._process.stdin is not None
         data = memoryview(message)
         pipe = self._process.stdin.fileno()
-        clock = _Clock(deadline)
+        clock = Clock(deadline, self._used, self.usual)
         while data:
             self._wait(clock, write=[pipe])
             try:
@@ -160,7 +162,7 @@ class Process:
         """The head and the values of a reply.
 
         Raises StudentError: there is none in time, or none that can be read.
-        ``deadline``: ``time.monotonic()`` at which the process is ended
+        ``deadline``: as in ``write``
         """
         try:
             return unpack(self._reader(deadline), generators=False)
@@ -186,14 +188,16 @@ class Process:
             meaning = f"; {self._ended}"
         return StudentError("crashed", f"{why}{meaning}")
 
-    def _wait(self, clock: "_Clock", read: Sequence[int] = (), write: Sequence[int] = ()) -> None:
+    def _wait(self, clock: Clock, read: Sequence[int] = (), write: Sequence[int] = ()) -> None:
         """Until there is something to read, or room to write; the process is ended where that takes too long."""
-        if not any(select.select(read, write, [], clock.left())) or clock.over():
+        while not (there := any(select.select(read, write, [], clock.left()))) and not clock.over():
+            pass
+        if not there or clock.long_over():
             self.close()
             raise StudentError("timeout", "no answer in time")
 
     def _reader(self, deadline: float) -> Callable[[int], bytearray]:
-        clock = _Clock(deadline)
+        clock = Clock(deadline, self._used, self.usual)
 
         def read(count: int) -> bytearray:
             data = bytearray(count)
@@ -229,28 +233,6 @@ class Process:
                     self._printed += data[:room]
                     if len(data) > room:
                         self._printed += b"\n... (more was printed)"
-
-
-class _Clock:
-    """How long to wait for a pipe: until a deadline, and then for nothing that isn't there within ``GRACE``.
-
-    What trickles in is always there, so time is looked at after every turn.
-    """
-
-    def __init__(self, deadline: float) -> None:
-        self._deadline = deadline
-        self._last: float | None = None
-
-    def left(self) -> float:
-        return max(self._deadline - monotonic(), 0.0)
-
-    def over(self) -> bool:
-        now = monotonic()
-        if now <= self._deadline:
-            return False
-        # Counted from the first look, which may come late by no fault of the student's.
-        self._last = self._last or now + GRACE
-        return now > self._last
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
