@@ -105,8 +105,14 @@ def _mixed(function: Function, a: Arguments) -> Iterator[tuple[Arguments, str]]:
     floating = [name for name in floating if a[name].dtype.kind == "f"]
     for other, (few, rest) in product(floating, (DTYPES, DTYPES[::-1])) if floating[1:] else ():
         dtypes = {name: few if name == other else rest for name in floating}
-        mixed = Arguments(a | {name: a[name].astype(dtype) for name, dtype in dtypes.items()})
+        mixed = Arguments(a | {name: _cast(name, a[name], dtype) for name, dtype in dtypes.items()})
         yield mixed, "batches of float32 and float64"
+
+
+def _cast(name: str, value: Array, dtype: Any) -> Array:
+    """The values in another dtype; u stays below 1, to which the largest number below it would be rounded."""
+    found = value.astype(dtype)
+    return np.minimum(found, np.nextafter(found.dtype.type(1), 0)) if name == "u" else found
 
 
 # ---------------------------------------------------------------- at_the_ends

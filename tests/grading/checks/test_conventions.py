@@ -5,13 +5,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.grading.checks.check import Failure
+from course.grading.catalog import module_checks
+from course.grading.checks.check import Check, Failure
 from course.grading.checks.conventions import conventions
 from course.grading.checks.declare import Arguments, declaration
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, where
+from course.grading.checks.running import run_checks
 from course.grading.errors import StudentError
 from course.grading.modules.hierarchies import walkable
+from course.grading.references import reference, references
 from tests.grading.checks.declaring import SHIFTED, but, shifted, trial
 
 LAWS = {law.name: law for law in conventions(SHIFTED)}
@@ -149,3 +152,36 @@ def test_wrong_shapes_are_axes_less_more_and_turned_and_rows() -> None:
     assert {(3,), (4, 3), (2, 4), (4, 4), (1, 3, 4), (3, 4, 1)} <= shapes
     points = {row[: row.index(-1)] for row in refused}
     assert {(), (2,), (4,), (1, 3), (3, 1)} <= points
+
+
+class Watching:
+    """A ``Caller`` that calls another, and keeps the largest u that came."""
+
+    def __init__(self, module: str) -> None:
+        self.module, self.right, self.largest = module, reference(module), 0.0
+
+    def _look(self, function: str, arguments: tuple[Any, ...]) -> None:
+        declared = declaration(self.module, function)
+        for argument, value in zip(declared.arguments if declared else (), arguments, strict=False):
+            if argument.name == "u" and np.size(value) and np.asarray(value).dtype.kind == "f":
+                self.largest = max(self.largest, float(np.nanmax(value)))
+
+    def call(self, function: str, *arguments: Any, **named: Any) -> Any:
+        self._look(function, arguments)
+        return self.right.call(function, *arguments, **named)
+
+    def call_and_look(self, function: str, *arguments: Any) -> Any:
+        self._look(function, arguments)
+        return self.right.call_and_look(function, *arguments)
+
+
+@pytest.mark.parametrize("module", ["microfacets", "soft_shadows", "glossy", "path_tracing"])
+def test_u_is_never_1(module: str) -> None:
+    watching = Watching(module)
+    contracts = [*run_checks(module_checks(module), watching, references(), 0, _is_contract)]
+    assert contracts
+    assert 0.999 < watching.largest < 1
+
+
+def _is_contract(check: Check) -> bool:
+    return check.name == "contract"
