@@ -210,6 +210,18 @@ def _aligned(draw: Draw) -> Mapping[str, Any]:
     }
 
 
+def _nearly_one_axis(draw: Draw) -> Mapping[str, Any]:
+    """Narrow cones whose axes are so near to each other that a cosine hardly tells them apart."""
+    axis = draw.directions()
+    turn = 10.0 ** draw.rng.uniform(-4, -2.5, draw.n)
+    return {
+        "axis_a": axis,
+        "angle_a": turn * draw.uniform(0, 0.9, draw.n),
+        "axis_b": _around(draw, axis, turn),
+        "angle_b": turn * draw.uniform(0, 0.9, draw.n),
+    }
+
+
 def _expected_cone(a: Arguments, r: Any) -> tuple[Any, ...]:
     axis, angle, told = merged(a.axis_a, a.angle_a, a.axis_b, a.angle_b)
     found = np.concatenate((np.where(told, r[0], axis), r[1][None]))
@@ -264,6 +276,15 @@ MERGE_CONES = function(
             what="a part of the cones outside, in radians,",
             slack=1e-3,
             case=_aligned,
+        ),
+        close(
+            "narrow",
+            "Cones next to each other have the right angle around them",
+            lambda a, r: (r[1], merged(a.axis_a, a.angle_a, a.axis_b, a.angle_b)[1], 1.0),
+            "The cosine of a small angle is 1 less half of its square: an arcus cosine in float32 loses half of the "
+            "digits. The chord between the axes, or both sine and cosine, keep them.",
+            what="an angle of",
+            case=_nearly_one_axis,
         ),
         within(
             "inside",

@@ -171,11 +171,11 @@ SPHERE_UV = function(
             "poles",
             "Places next to the poles are right",
             _round,
-            "Next to a pole u still goes once around.",
+            "Next to a pole u still goes once around, and an arcus cosine of the height in float32 loses half of v's "
+            "digits: take it in double precision, or from height and distance to the axis.",
             what="next to a pole, coordinate (u, v):",
             case=_near_poles,
-            dtypes=(np.float64,),
-            within=1,
+            within=4,
         ),
         close(
             "everywhere",
