@@ -121,6 +121,8 @@ def _taken_by_content(
     # A program goes before a notebook; editors that hide suffixes save it as a text.
     for suffixes in ((NOTEBOOK,),) if written else ((PYTHON, ".txt"), (NOTEBOOK,)):
         files = [entry for entry in entries if entry.path.suffix.lower() in suffixes]
+        # What lies at the top is what most likely is handed in.
+        files.sort(key=lambda entry: len(entry.path.parts))
         by_module: dict[str, list[tuple[Entry, bytes | Notebook]]] = {}
         for entry in files[:MOST_READ]:
             wanted = [module for module in modules if module not in sources]

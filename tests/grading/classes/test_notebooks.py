@@ -4,6 +4,7 @@ import ast
 import json
 import random
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -13,11 +14,15 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
+from course.grading.classes.job import Job, grade_job
+from course.grading.classes.keeping import fingerprint
 from course.grading.classes.notebooks import Notebook, _converted, read_notebook
+from course.grading.classes.settings import Settings
 from course.grading.classes.submitted import find_submissions
 from course.grading.grading import grade
 from course.grading.known import known
 from course.grading.references import references
+from course.grading.reports.classes import Line, write_class_page, write_grades
 from course.grading.submissions import SubmissionError
 from course.modules import COURSE
 
@@ -374,3 +379,23 @@ def test_the_notebook_earns_what_the_file_earns(module: str) -> None:
             only=lambda check: check.prepare is None,
         )
         assert report.points == pytest.approx(report.of)
+
+
+def test_student_and_class_read_what_was_left_out(tmp_path: Path) -> None:
+    cells = ("import numpy as np\nfiles = !ls", BLUR.format(factor=1))
+    (tmp_path / "class" / "ada").mkdir(parents=True)
+    (tmp_path / "class" / "ada" / "motion_blur.ipynb").write_bytes(notebook(*cells))
+    (one,) = find_submissions(tmp_path / "class", ["motion_blur"])
+    settings = Settings(0, ("motion_blur",))
+    job = Job("ada", {}, "stopped here", settings, remarks=one.remarks)
+    graded = grade_job(job, b"")
+    told = "motion_blur.ipynb: cell 1, line 2: left out: files = !ls"
+    assert len(graded.files) == 5
+    for name, content in graded.files.items():
+        assert told in content.decode(), name
+    write_grades([graded.report], tmp_path / "grades.csv", {"ada": Line(one.remarks)})
+    write_class_page([graded.report], [], tmp_path / "class.html", {"ada": Line(one.remarks)})
+    for name in ("grades.csv", "class.html"):
+        assert told in (tmp_path / name).read_text("utf-8")
+    changed = replace(one, remarks=())
+    assert fingerprint(one, settings) != fingerprint(changed, settings)
