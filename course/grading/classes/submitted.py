@@ -52,7 +52,7 @@ class Submission:
     trouble : why it can't be graded; empty if it can
     remarks : what was guessed, and what was left out
     names : by which lists of a learning system or the instructor may know the student
-    number, login : that a learning system knows the student by; empty where it says none
+    number, logins : that a learning system knows the student by; empty where it says none
     downloaded : whether it is a learning system's download
     """
 
@@ -63,7 +63,7 @@ class Submission:
     remarks: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
     number: str = ""
-    login: str = ""
+    logins: tuple[str, ...] = ()
     downloaded: bool = False
 
     @property
@@ -75,7 +75,7 @@ class Submission:
         """
         if not self.downloaded:
             return (self.names,) * 3
-        return ((self.number,), (self.login,), self.names)
+        return ((self.number,), self.logins, self.names)
 
 
 @dataclass
@@ -86,7 +86,7 @@ class _Handed:
     ----------
     owner : the student, as the names say it
     parts : path, and the name of the file in the submission; "" for what is a submission as a whole
-    names, number, login, downloaded : as in `Submission`
+    names, number, logins, downloaded : as in `Submission`
     attempt : of a student's several the latest counts
     """
 
@@ -96,7 +96,7 @@ class _Handed:
     remarks: list[str] = field(default_factory=list)
     names: tuple[str, ...] = ()
     number: str = ""
-    login: str = ""
+    logins: tuple[str, ...] = ()
     downloaded: bool = False
     attempt: str = ""
 
@@ -189,7 +189,7 @@ def _handed(path: Path, modules: tuple[str, ...]) -> tuple[tuple[str, str], _Han
 def _sent(path: Path, by: Sent) -> tuple[tuple[str, str], _Handed]:
     """The same for what a learning system says whose it is."""
     remarks = [f"{by.file or path.name}: {by.remark}"] if by.remark else []
-    parts, known = [(path, by.file)], (by.names, by.number, by.login)
+    parts, known = [(path, by.file)], (by.names, by.number, by.logins)
     handed = _Handed(by.owner, parts, "", remarks, *known, downloaded=True, attempt=by.attempt)
     return ("sent", by.owner), handed
 
@@ -275,7 +275,7 @@ def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission
         clean_line(_without_folders(text, handed)) for text in (trouble, *handed.remarks, *remarks)
     )
     names = (student, *handed.names)
-    known = handed.number, handed.login, handed.downloaded
+    known = handed.number, handed.logins, handed.downloaded
     return Submission(student, paths, sources, trouble, tuple(told), names, *known)
 
 

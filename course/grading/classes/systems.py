@@ -45,7 +45,8 @@ class Sent:
     owner : a name that tells this student from all others
     file : the file's own name; empty for a folder
     names : the student's, where the system shows it
-    number, login : by which the system knows the student; empty where it doesn't say
+    number : by which the system knows the student; empty where it doesn't say
+    logins : likewise; more than one where the name doesn't say where the login begins
     attempt : of several of one student the latest is the last in the order of the alphabet
     remark : what the system says of it besides
     """
@@ -54,7 +55,7 @@ class Sent:
     file: str
     names: tuple[str, ...] = ()
     number: str = ""
-    login: str = ""
+    logins: tuple[str, ...] = ()
     attempt: str = ""
     remark: str = ""
 
@@ -77,13 +78,14 @@ def sent(name: str, is_folder: bool = False) -> tuple[Sent, ...]:
         # The assignment's name comes first, and both it and a login may hold the sign between them.
         owner, file = name[: by.start()], by["file"] or "comments.txt"
         if owner and (by["file"] or by.end() == len(name)):
-            login = owner.rpartition("_")[2]
-            found.append(Sent(owner, file, login=login, attempt=by["try"]))
+            parts = owner.split("_")
+            logins = tuple("_".join(parts[i:]) for i in range(1, len(parts)))
+            found.append(Sent(owner, file, logins=logins, attempt=by["try"]))
     if by := _BRIGHTSPACE.fullmatch(name):
         owner = f"{by['name']}_{by['id']}"
         found.append(Sent(owner, by["file"] or "", (by["name"],), attempt=_time(by)))
     if is_folder and not found and (by := _ILIAS.fullmatch(name)):
-        found.append(Sent(name, "", (f"{by['first']} {by['last']}",), login=by["login"]))
+        found.append(Sent(name, "", (f"{by['first']} {by['last']}",), logins=(by["login"],)))
     return tuple(found)
 
 
@@ -124,7 +126,7 @@ def _github(folder: Path, paths: Iterable[Path]) -> Iterable[tuple[Path, Sent]]:
         before = first[: first.rfind("-", 0, same) + 1]
     for path in clones if before else ():
         if path.name.startswith(before) and (login := path.name.removeprefix(before)):
-            yield path, Sent(path.name, "", login=f"{BY_GITHUB}{login}")
+            yield path, Sent(path.name, "", logins=(f"{BY_GITHUB}{login}",))
 
 
 def _gradescope(metadata: Path, paths: Iterable[Path]) -> dict[Path, tuple[Sent, ...]]:
@@ -146,7 +148,7 @@ def _gradescope(metadata: Path, paths: Iterable[Path]) -> dict[Path, tuple[Sent,
                     "",
                     (name,),
                     number,
-                    mail,
+                    (mail,),
                     remark=remark,
                 )
                 for name, number, mail in people
