@@ -12,6 +12,7 @@ from course.effects import Bound
 from course.extras.painting import Paint
 from course.extras.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
 from course.formats.meshes import transforms
+from course.formats.meshes.named import Named
 from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription, rgb
 from course.formats.yaml.document import KeyPath
@@ -54,7 +55,7 @@ class Painter:
     ``files``: mesh files that have been read, by their normals and names in the scene; ``scale``: that of the frame.
     """
 
-    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Mesh], scale: float) -> None:
+    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Named], scale: float) -> None:
         self._loaded = loaded
         self._scale = scale
         self._bound = bound

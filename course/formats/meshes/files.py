@@ -5,7 +5,6 @@ A mesh leaves `read_mesh` checked: finite, every index in range, one triangle or
 
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Literal
 
@@ -17,6 +16,7 @@ from course.core.types import Floats64
 from course.errors import CourseWarning, GeometryError
 from course.formats.meshes.beside import Beside
 from course.formats.meshes.gltf import parse_glb, parse_gltf
+from course.formats.meshes.named import Named
 from course.formats.meshes.obj import parse_obj
 from course.formats.meshes.parts import Part, same
 from course.formats.meshes.ply import parse_ply
@@ -58,21 +58,6 @@ USUAL = Bound(LARGEST_DATA)
 
 Weights = Literal["angle", "area"]
 """By what the faces around a vertex count in its normal."""
-
-
-@dataclass(frozen=True)
-class Named:
-    """A mesh, and which of its triangles have which of the file's materials.
-
-    Attributes
-    ----------
-    names : of materials that triangles have, "" for none; empty where the file names no materials
-    name : (T,) integer, which of the names each triangle has
-    """
-
-    mesh: Mesh
-    names: tuple[str, ...]
-    name: NDArray[np.intp]
 
 
 def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> Mesh:

@@ -542,9 +542,23 @@ class HeightField(ObjectDescription, frozen=True, kw_only=True, tag="height_fiel
 
 
 class MeshFile(ObjectDescription, frozen=True, kw_only=True, tag="mesh"):
-    """A mesh from a PLY, OBJ, STL or GLB file."""
+    """A mesh from a PLY, OBJ, STL, GLB or glTF file."""
 
     file: Annotated[str, about("Path of the file, relative to the scene file.", min_length=1)]
+    materials: Annotated[
+        dict[str, str],
+        about(
+            "Materials of faces, by the names that the file gives to theirs: those of usemtl in an OBJ file, and of the"
+            " materials of a GLB file. Faces of other names have material."
+        ),
+    ] = msgspec.field(default_factory=dict)
+    only: Annotated[
+        Annotated[tuple[str, ...], msgspec.Meta(min_length=1)] | None,
+        about(
+            "Names of the file's materials whose faces are this object, an empty one for faces without; null for all"
+            " faces."
+        ),
+    ] = None
     normals: Annotated[
         Literal["angle", "area"],
         about(

@@ -358,7 +358,8 @@ def _decode(content: bytes, file: str) -> str:
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise SceneError(
-            f"{file}:{line}: not {error.encoding.upper()} text: byte {error.start} is 0x{content[error.start]:02x}; save it as UTF-8"
+            f"{file}:{line}: not {error.encoding.upper()} text: byte {error.start} is 0x{content[error.start]:02x};"
+            " save it as UTF-8"
         ) from None
     if found := _NOT_TEXT.search(text):
         line = text.count("\n", 0, found.start()) + 1
