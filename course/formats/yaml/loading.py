@@ -60,12 +60,18 @@ def bytes_of_files(document: Document) -> Bound:
     return _bound(document, "bytes")
 
 
-def read_named_picture(file: str, path: KeyPath, loaded: Loaded, codes: bool = False) -> Floats32:
+def read_named_picture(
+    file: str, path: KeyPath, loaded: Loaded, codes: bool = False, layer: str | None = None
+) -> Floats32:
     """A picture that a scene names as linear RGB, or codes, (H, W, 3); SceneError by the key that names it."""
     document = loaded.document
     try:
         return read_picture(
-            loaded.path.parent / file, bytes_of_files(document), _bound(document, "pixels"), codes
+            loaded.path.parent / file,
+            bytes_of_files(document),
+            _bound(document, "pixels"),
+            codes,
+            layer,
         )
     except SceneError as error:
         raise document.error(path, str(error)) from error
