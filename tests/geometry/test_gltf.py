@@ -382,7 +382,7 @@ TOLD: dict[str, tuple[Change, str]] = {
     "animations": (lambda w: w.header.update(animations=[{}]), "its animations are left out"),
     "points": (
         lambda w: w.header["meshes"][0]["primitives"].append(w.primitive | {"mode": 1}),
-        "1 meshes of points and lines have no surface",
+        "meshes of points and lines have no surface, and are left out: 1",
     ),
     "colours": (
         lambda w: w.primitive["attributes"].update(COLOR_0=1),

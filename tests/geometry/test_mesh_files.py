@@ -203,7 +203,9 @@ def test_glb_nodes_place_turn_and_mirror_their_meshes(tmp_path: Path) -> None:
     # Points and lines beside the triangles of a mesh are not surfaces.
     points = {"attributes": {"POSITION": 0}, "mode": 0}
     data = glb_bytes(TORUS, nodes, lambda header: header["meshes"][0]["primitives"].append(points))
-    with pytest.warns(CourseWarning, match="1 meshes of points and lines have no surface"):
+    with pytest.warns(
+        CourseWarning, match="meshes of points and lines have no surface, and are left out: 1"
+    ):
         read = read_mesh(saved(tmp_path, "scene.glb", data))
     place = translate((1.0, 2.0, 3.0))
     mirrored = apply(TORUS, compose([scale((-2.0, 1.0, 1.0)), place]))

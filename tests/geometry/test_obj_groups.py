@@ -161,7 +161,7 @@ def test_names_of_materials_follow_the_faces(tmp_path: Path) -> None:
     ("text", "told"),
     [
         ("v 1 1 1 1 0 0\n", "line 9: numbers behind x y z, such as colours of vertices, are left"),
-        ("l 1 2\np 3\n", "line 9: 2 points and lines have no surface"),
+        ("l 1 2\np 3\n", "line 9: points and lines have no surface, and are left out: 2"),
         ("cstype bezier\nsurf 0 1 0 1 1 2 3\n", r"line 9: free-form .*\(cstype, surf\)"),
         ("call other.obj\n", "line 9: 'call' is no statement of a mesh, and was passed over"),
         ("x\ny\nx\n", "line 9: 'x' is no .* passed over, with 2 more such lines"),

@@ -96,7 +96,7 @@ def test_exr_of_rec_709_stays_bit_for_bit(tmp_path: Path) -> None:
 def test_colours_beyond_rec_709_are_told(tmp_path: Path) -> None:
     (tmp_path / "a.exr").write_bytes(exr((0, 1, 0), chromaticities=AP0))
     with pytest.warns(
-        CourseWarning, match="24 pixels are negative, down to -1.13 in column 0, row 0"
+        CourseWarning, match="pixels that are negative: 24, down to -1.13 in column 0, row 0"
     ):
         picture = read_picture(tmp_path / "a.exr")
     np.testing.assert_allclose(picture[0, 0], [0, 1.3727, 0], atol=1e-3)
@@ -169,7 +169,7 @@ def test_png_of_p3_becomes_rec_709(tmp_path: Path, chunks: dict[str, bytes]) -> 
     np.testing.assert_allclose(read_picture(tmp_path / "a.png")[0, 0], expected, atol=1e-3)
     codes[0, 0] = 255, 0, 0
     (tmp_path / "a.png").write_bytes(by_hand.png(codes, more=chunks))
-    with pytest.warns(CourseWarning, match="1 pixels have colours that sRGB hasn't"):
+    with pytest.warns(CourseWarning, match="pixels of colours that sRGB hasn't: 1"):
         assert read_picture(tmp_path / "a.png")[0, 0].tolist() == [1, 0, 0]
 
 
@@ -226,8 +226,8 @@ def test_infinite_and_negative_values_are_mended_with_one_warning(
         found = read_picture(tmp_path / "a.exr")
     assert len(said) == 1
     assert str(said[0].message).split(": ", 1)[1] == (
-        "2 pixels are infinite, and are taken for 65504; 2 pixels are negative, down to -0.5 in column 4, row 2,"
-        " and are taken for 0"
+        "pixels that are infinite: 2, taken for 65504; pixels that are negative: 2, down to -0.5 in column 4, row 2,"
+        " taken for 0"
     )
     expected = np.where(np.isinf(picture), 65504, np.maximum(picture, 0)).astype(np.float32)
     assert (found == expected).all()
@@ -237,7 +237,7 @@ def test_what_is_infinite_is_no_less_than_the_rest(tmp_path: Path) -> None:
     picture = np.full((5, 9, 3), 1e6, np.float32)
     picture[0, 0] = np.inf
     (tmp_path / "a.exr").write_bytes(by_hand.exr_rgb(picture))
-    with pytest.warns(CourseWarning, match="1 pixels are infinite, and are taken for 1e.06"):
+    with pytest.warns(CourseWarning, match="pixels that are infinite: 1, taken for 1e.06"):
         assert (read_picture(tmp_path / "a.exr") == 1e6).all()
 
 

@@ -93,7 +93,7 @@ def _parts(text: bytes, binary: memoryview | None, beside: Beside) -> list[Part]
             if len(part.triangles):
                 parts.append(replace(part, places=places))
     if left_out:
-        notes.append(f"{left_out:,} meshes of points and lines have no surface, and are left out")
+        notes.append(f"meshes of points and lines have no surface, and are left out: {left_out:,}")
     if not parts:
         shown = sum(node.mesh is not None for node in root.nodes)
         there = (

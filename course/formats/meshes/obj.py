@@ -208,7 +208,7 @@ def _passed(lines: _Lines) -> tuple[str, ...]:
         )
     if outlines := [line for kind in OUTLINES for line in lines.passed.get(kind, ())]:
         notes.append(
-            f"line {min(outlines)}: {len(outlines):,} points and lines have no surface, and are left out"
+            f"line {min(outlines)}: points and lines have no surface, and are left out: {len(outlines):,}"
         )
     other = {k: at for k, at in lines.passed.items() if k not in CURVED and k not in OUTLINES}
     if other:

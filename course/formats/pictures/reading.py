@@ -144,18 +144,16 @@ def _mend(found: _Found, path: Path) -> list[str]:
             default=0,
         )
         largest = max(largest, HALF)
-        notes.append(f"{infinite:,} pixels are infinite, and are taken for {largest:g}")
+        notes.append(f"pixels that are infinite: {infinite:,}, taken for {largest:g}")
         for part in _parts_of(picture):
             part[np.isinf(part)] = largest
     if negative:
         value, x, y = lowest
         notes.append(
-            f"{negative:,} pixels are negative, down to {value:.3g} in column {x}, row {y}, and are taken for 0"
+            f"pixels that are negative: {negative:,}, down to {value:.3g} in column {x}, row {y}, taken for 0"
         )
     if bright:
-        notes.append(
-            f"{bright:,} pixels have colours that sRGB hasn't, and are taken for its nearest"
-        )
+        notes.append(f"pixels of colours that sRGB hasn't: {bright:,}, taken for its nearest")
     if negative or bright:
         for part in _parts_of(picture):
             np.clip(part, 0, found.white, out=part)
