@@ -43,7 +43,7 @@ def read_table(path: Path, what: str) -> Table:
         told = f"{shown(path)}: can't be read: {error}; save it as CSV in UTF-8"
         raise CourseError(told) from None
     # Excel says in a line of its own what it divides cells by.
-    stated = re.match(r"sep=(.)\r?\n", text)
+    stated = re.match(rf"sep=([{_DELIMITERS}])\r?\n", text)
     above, text = (1, text[stated.end() :]) if stated else (0, text)
     heading = re.sub(r'"[^"]*"', "", text.lstrip().partition("\n")[0])
     delimiter = stated[1] if stated else max(_DELIMITERS, key=heading.count)

@@ -178,7 +178,7 @@ def _own_rows(
 
 def doubts_of(roster: Roster, title: str, total: float) -> Iterator[str]:
     """What is told of tables for learning systems: what they pass over, and what was made of the grades."""
-    if roster.worksheet is None and _PASSED_OVER.search(title):
+    if _PASSED_OVER.search(title):
         yield (
             f"Canvas passes over columns that look like its totals, and may do so with {clean(title)!r}: "
             "give the assignment another name, and --title that"

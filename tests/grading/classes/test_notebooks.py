@@ -215,6 +215,7 @@ def test_what_is_tried_out_beside_is_gone_and_told() -> None:
         ("k = await f()", "cell 2, line 1: left out: k = await f()"),
         ("return 3", "cell 2, line 1: left out: 'return' outside function"),
         ("%alias_magic \\\n  a b\nk = 1\nj = !ls", "cell 2, line 4: left out: j = !ls"),
+        ("k = " + "-" * 900 + "1", "cell 2, line 1: is n"),
         ("%%writefile helpers.py\nk = 3", "helpers.py, which a cell writes, is left out"),
         ("if 'colab' in str(get_ipython()):\n    k = 1", "cell 2, line 1: left out: if 'colab'"),
     ],
@@ -399,3 +400,21 @@ def test_student_and_class_read_what_was_left_out(tmp_path: Path) -> None:
         assert told in (tmp_path / name).read_text("utf-8")
     changed = replace(one, remarks=())
     assert fingerprint(one, settings) != fingerprint(changed, settings)
+
+
+def test_a_notebook_saved_as_a_program(tmp_path: Path) -> None:
+    """As nbconvert writes it: magics are calls, and what stood under %%time is a text."""
+    body = BLUR.format(factor="k")
+    text = (
+        "#!/usr/bin/env python\n# coding: utf-8\n\n# In[1]:\n\n\nimport numpy as np\n"
+        "get_ipython().run_line_magic('matplotlib', 'inline')\nk = 3\n\n# In[2]:\n\n\n"
+        f"get_ipython().run_cell_magic('time', '', {body!r})\nget_ipython().system('ls')\n"
+        "j = get_ipython().getoutput('ls')\n"
+    )
+    (tmp_path / "ada").mkdir()
+    (tmp_path / "ada" / "motion_blur.py").write_text(text, "utf-8")
+    (found,) = find_submissions(tmp_path, ["motion_blur"])
+    np.testing.assert_array_equal(moved(found.sources["motion_blur"])[0], 3 * TIME)
+    assert found.remarks == (
+        "motion_blur.py, a notebook saved as a program: cell 1, line 16: left out: j = !ls",
+    )
