@@ -33,6 +33,9 @@ def moved(mesh: Mesh, *steps: NDArray[np.float64]) -> Mesh:
     return transforms.apply(mesh, transforms.compose(list(steps)))
 
 
+TURN = transforms.rotate((1.0, 2.0, 3.0), 33.0)[:3, :3]
+
+
 def turned(mesh: Mesh) -> Mesh:
     return moved(mesh, transforms.rotate((1.0, 2.0, 3.0), 33.0))
 
@@ -272,9 +275,7 @@ def test_every_edge_of_a_closed_rod_of_thin_triangles_still_belongs_to_two(
     size: float, turn: bool
 ) -> None:
     whole = planks(np.random.default_rng(4), turn)
-    at = np.array([[0.1, 0.05, 0.3]]) @ (
-        transforms.rotate((1.0, 2.0, 3.0), 33.0)[:3, :3].T if turn else np.eye(3)
-    )
+    at = np.array([[0.1, 0.05, 0.3]]) @ (TURN.T if turn else np.eye(3))
     things = SmallThings(at - size / 2, at + size / 2, np.array([size]))
     parts = cut(whole, things, 1024.0)
     count = sum(len(part.mesh.triangles) for part in parts)
@@ -293,13 +294,17 @@ def test_every_edge_of_a_closed_rod_of_thin_triangles_still_belongs_to_two(
 def test_rays_leave_thin_triangles_from_close_by_where_something_small_is() -> None:
     size = 1e-2
     whole = planks(np.random.default_rng(4), True)
-    things = thing(size)
-    assert build_surface(whole).triangles.planes[:, 6].max() > 10 * OFFSET
+    things = thing(size, tuple(TURN @ (0.1, 0.05, 0)))
+    assert build_surface(whole).triangles.planes[:, 6].max() > 2 * size / 512
+    count = 0
     for part in cut(whole, things, 1024.0):
         p = part.mesh.vertices[part.mesh.triangles]
-        beside = (np.abs(p).min(axis=1) < size).all(axis=1)
+        low, high = things.low - size, things.high + size
+        beside = ((p.min(axis=1) < high) & (p.max(axis=1) > low)).all(axis=1)
+        count += int(beside.sum())
         offsets = build_surface([part]).triangles.planes[:, 6]
-        assert (offsets[beside] <= 2 * size / 512).all()
+        assert (offsets[beside] <= 1.01 * 2 * size / 512).all()
+    assert count > 4
 
 
 def test_a_fan_of_needles_takes_few_pieces() -> None:

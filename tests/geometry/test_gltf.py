@@ -16,63 +16,12 @@ from numpy.typing import NDArray
 from course.errors import CourseWarning, GeometryError
 from course.formats.meshes.files import read_mesh, read_named_mesh
 from course.shapes.mesh import Mesh
-
-SQUARE = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], "<f4")
-KINDS = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
-WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4", 16: "MAT4"}
+from tests.geometry.gltf_files import KINDS, SQUARE, Writer
 
 
-class Writer:
-    """A file with a square of two triangles as mesh 0 in node 0, to be changed before it is written."""
-
-    def __init__(self) -> None:
-        self.binary = b""
-        self.header: dict[str, Any] = {
-            "asset": {"version": "2.0"},
-            "bufferViews": [],
-            "accessors": [],
-            "nodes": [{"mesh": 0}],
-            "scenes": [{"nodes": [0]}],
-            "scene": 0,
-        }
-        indices = self.add(np.array([0, 1, 2, 0, 2, 3], "u1"))
-        self.primitive: dict[str, Any] = {
-            "attributes": {"POSITION": self.add(SQUARE)},
-            "indices": indices,
-        }
-        self.header["meshes"] = [{"primitives": [self.primitive]}]
-
-    def view(self, array: NDArray[Any]) -> int:
-        """A view of a whole array."""
-        self.binary += b"\0" * (-len(self.binary) % 4)
-        at = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": array.nbytes}
-        self.header["bufferViews"].append(at)
-        self.binary += array.tobytes()
-        return len(self.header["bufferViews"]) - 1
-
-    def add(self, array: NDArray[Any], **more: Any) -> int:
-        """An accessor of an array (N,) or (N, width)."""
-        rows = array.reshape(len(array), -1)
-        accessor = {
-            "bufferView": self.view(rows),
-            "componentType": KINDS[rows.dtype.str[1:]],
-            "count": len(rows),
-            "type": WIDTHS[rows.shape[1]],
-        }
-        self.header["accessors"].append(accessor | more)
-        return len(self.header["accessors"]) - 1
-
-    def glb(self) -> bytes:
-        self.header.setdefault("buffers", [{"byteLength": len(self.binary)}])
-        text = json.dumps(self.header).encode()
-        text += b" " * (-len(text) % 4)
-        chunks = struct.pack("<I4s", len(text), b"JSON") + text
-        chunks += struct.pack("<I4s", len(self.binary), b"BIN\0") + self.binary
-        return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
-
-    def read(self, folder: Path) -> Mesh:
-        (folder / "a.glb").write_bytes(self.glb())
-        return read_mesh(folder / "a.glb")
+def read(writer: Writer, folder: Path) -> Mesh:
+    (folder / "a.glb").write_bytes(writer.glb())
+    return read_mesh(folder / "a.glb")
 
 
 def bounds(mesh: Mesh) -> list[list[float]]:
@@ -117,7 +66,7 @@ def test_joints_move_a_skinned_mesh_and_its_node_does_not(
 ) -> None:
     writer = Writer()
     skinned(writer, node, np.zeros((4, 4), "u1"), ONE)
-    assert bounds(writer.read(tmp_path)) == [[0, 0, 0], [1, 1, 0]]
+    assert bounds(read(writer, tmp_path)) == [[0, 0, 0], [1, 1, 0]]
 
 
 def test_vertices_follow_their_joints_by_weight(tmp_path: Path) -> None:
@@ -127,7 +76,7 @@ def test_vertices_follow_their_joints_by_weight(tmp_path: Path) -> None:
     weights = np.array([(255, 0, 0, 0), (255, 0, 0, 0), (255, 0, 0, 0), (128, 128, 0, 0)], "u1")
     skinned(writer, {}, joints, weights)
     writer.header["accessors"][writer.primitive["attributes"]["WEIGHTS_0"]]["normalized"] = True
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     np.testing.assert_allclose(
         mesh.vertices, [(0, 0, 0), (1, 0, 0), (1, 6, 0), (0, 3.5, 0)], atol=1e-6
     )
@@ -139,7 +88,7 @@ def test_a_joint_turns_normals_with_the_vertices(tmp_path: Path) -> None:
     skinned(writer, {}, np.zeros((4, 4), "u2"), ONE)
     half = math.sqrt(0.5)
     writer.header["nodes"][1] = {"rotation": [half, 0, 0, half], "scale": [1, 1, 2]}
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     assert bounds(mesh) == [[0, 0, 0], [1, 0, 1]]
     assert mesh.normals is not None
     np.testing.assert_allclose(mesh.normals, [(0, -1, 0)] * 4, atol=1e-6)
@@ -168,7 +117,7 @@ def test_morph_targets_count_by_their_weights(tmp_path: Path, where: str, sparse
         writer.header["meshes"][0]["weights"] = [0.5, 1] if where == "mesh" else [9, 9]
     if where != "mesh":
         writer.header["nodes"][0]["weights"] = [0.5, 1]
-    np.testing.assert_allclose(writer.read(tmp_path).vertices[:, 2], [1, 4, 1, 1])
+    np.testing.assert_allclose(read(writer, tmp_path).vertices[:, 2], [1, 4, 1, 1])
 
 
 # ---------------------------------------------------------------- accessors and modes
@@ -197,14 +146,14 @@ def test_positions_of_whole_numbers(
     writer.header |= {"extensionsUsed": ["KHR_mesh_quantization"]}
     writer.header |= {"extensionsRequired": ["KHR_mesh_quantization"]}
     size = 1 if normalized else largest
-    assert bounds(writer.read(tmp_path)) == [[0, 0, 0], [size, size, 0]]
+    assert bounds(read(writer, tmp_path)) == [[0, 0, 0], [size, size, 0]]
 
 
 def test_uv_of_whole_numbers_and_v_upwards(tmp_path: Path) -> None:
     writer = Writer()
     uv = np.array([(0, 0), (255, 0), (255, 255), (0, 51)], "u1")
     writer.primitive["attributes"]["TEXCOORD_0"] = writer.add(uv, normalized=True)
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     np.testing.assert_allclose(mesh.uv, [(0, 1), (1, 1), (1, 0), (0, 0.8)], atol=1e-12)
 
 
@@ -216,7 +165,7 @@ def test_triangles_strips_and_fans_fill_the_square_and_look_to_one_side(
 ) -> None:
     writer = Writer()
     writer.primitive |= {"mode": mode, "indices": writer.add(np.array(order, "<u4"))}
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     p = mesh.vertices[mesh.triangles]
     across = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
     np.testing.assert_allclose(across, [(0, 0, 1)] * 2)
@@ -227,13 +176,13 @@ def test_without_normals_triangles_are_flat_beside_others_that_have_some(tmp_pat
     writer = Writer()
     folded = writer.add(np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1)], "<f4"))
     writer.primitive["attributes"]["POSITION"] = folded
-    assert writer.read(tmp_path).normals is None
+    assert read(writer, tmp_path).normals is None
     other = {
         "attributes": {"POSITION": 1, "NORMAL": writer.add(np.array([(0, 0.6, 0.8)] * 4, "<f4"))}
     }
     writer.header["meshes"][0]["primitives"].append(other | {"indices": 0})
     del writer.header["buffers"]
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     assert mesh.normals is not None
     found = mesh.normals[mesh.triangles]
     np.testing.assert_allclose(found[0], [(0, 0, 1)] * 3)
@@ -258,7 +207,7 @@ def test_instances_are_all_there(tmp_path: Path) -> None:
     extension = {"EXT_mesh_gpu_instancing": {"attributes": instances(writer)}}
     writer.header["nodes"] = [{"mesh": 0, "translation": [0, 0, 7], "extensions": extension}]
     writer.header["extensionsRequired"] = ["EXT_mesh_gpu_instancing"]
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     low, high = bounds(mesh)
     assert (low, high) == ([0, 0, 7], [22, 3, 7])
     assert area(mesh) == pytest.approx(1 + 1 + 6)
@@ -276,14 +225,14 @@ def test_hidden_nodes_are_not_there(tmp_path: Path) -> None:
         {"extensions": hidden, "children": [3]},
     ]
     writer.header["nodes"].append({"mesh": 0, "translation": [5, 0, 0]})
-    assert bounds(writer.read(tmp_path)) == [[0, 0, 0], [1, 1, 0]]
+    assert bounds(read(writer, tmp_path)) == [[0, 0, 0], [1, 1, 0]]
 
 
 def test_a_file_without_scenes_shows_all_nodes_and_tells_it(tmp_path: Path) -> None:
     writer = Writer()
     del writer.header["scenes"], writer.header["scene"]
     with pytest.warns(CourseWarning, match="it has no scene: all its nodes are shown"):
-        assert area(writer.read(tmp_path)) == 1
+        assert area(read(writer, tmp_path)) == 1
 
 
 def test_materials_have_names(tmp_path: Path) -> None:
@@ -308,7 +257,7 @@ def test_a_million_nodes_take_seconds(tmp_path: Path) -> None:
     nodes[6999]["mesh"] = 0
     writer.header["nodes"] = nodes
     begin = time.process_time()
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     assert bounds(mesh) == [[0, 0, 3000], [1, 1, 3000]]
     assert time.process_time() - begin < 60
 
@@ -318,7 +267,7 @@ def test_many_nodes_with_one_mesh_are_many_copies(tmp_path: Path) -> None:
     count = 20_000
     writer.header["nodes"] = [{"mesh": 0, "translation": [2 * k, 0, 0]} for k in range(count)]
     writer.header["scenes"] = [{"nodes": list(range(count))}]
-    mesh = writer.read(tmp_path)
+    mesh = read(writer, tmp_path)
     assert area(mesh) == pytest.approx(count)
     assert bounds(mesh) == [[0, 0, 0], [2 * count - 1, 1, 0]]
 
@@ -367,7 +316,7 @@ def test_buffers_elsewhere_are_refused(tmp_path: Path, uri: str, told: str) -> N
     writer = Writer()
     writer.header["buffers"] = [{"byteLength": len(writer.binary), "uri": uri}]
     with pytest.raises(GeometryError, match=told):
-        writer.read(folder)
+        read(writer, folder)
 
 
 # ---------------------------------------------------------------- told and refused
@@ -397,7 +346,7 @@ def test_what_is_left_out_is_told(tmp_path: Path, change: Change, told: str) -> 
     writer = Writer()
     change(writer)
     with pytest.warns(CourseWarning, match=told):
-        assert area(writer.read(tmp_path)) == 1
+        assert area(read(writer, tmp_path)) == 1
 
 
 def as_nodes(*nodes: dict[str, Any]) -> Change:
@@ -471,7 +420,7 @@ def test_what_is_not_read_is_refused_by_name(tmp_path: Path, change: Change, tol
     writer = Writer()
     change(writer)
     with pytest.raises(GeometryError, match=told):
-        writer.read(tmp_path)
+        read(writer, tmp_path)
 
 
 def test_a_file_of_2_gb_by_its_header_is_cut_short(tmp_path: Path) -> None:
@@ -490,4 +439,4 @@ def test_too_many_triangles_by_reference_are_refused(tmp_path: Path) -> None:
     with pytest.raises(
         GeometryError, match="more than 67,108,864 triangles, all instances counted"
     ):
-        writer.read(tmp_path)
+        read(writer, tmp_path)
