@@ -40,6 +40,8 @@ def agree(
     degrees: float = 0.0,
     away: tuple[float, float, float] = (0.0, 0.0, 0.0),
     mirror: bool = False,
+    look_at: tuple[float, float, float] = (0.0, 0.03, 0.0),
+    vertical_fov: float = 20.0,
 ) -> None:
     """Compare all pixels whose neighbours show the same: nothing, the black ball, its shadow, or the lit plank.
 
@@ -58,9 +60,9 @@ def agree(
     scene = make_scene(
         camera={
             "eye": there(0.4, 0.4, 0.6),
-            "look_at": there(0, 0.03, 0),
+            "look_at": there(*look_at),
             "up": up,
-            "vertical_fov": 20,
+            "vertical_fov": vertical_fov,
         },
         film={"width": 120, "height": 90},
         sampler={"type": "regular", "samples": 1},
@@ -112,6 +114,15 @@ def test_a_balls_shadow_on_a_plank(
     away = (1e3, -2e3, 500.0) if degrees else (0.0, 0.0, 0.0)
     half = (WIDTH / 2, length / 2)
     agree(make_scene, pixel_rays, plank, half, degrees=degrees, away=away)
+
+
+def test_the_end_of_a_balls_shadow_on_a_narrow_plank(
+    make_scene: MakeScene, pixel_rays: PixelRays
+) -> None:
+    """The ball is 5 times as wide as the plank, and rays would leave it from 5% of its radius above, a few pixels."""
+    plank = {"shape": "quad", "width": 0.02, "depth": 40}
+    seen: dict[str, Any] = {"look_at": (0.0, 0.0, 0.12), "vertical_fov": 3.0}
+    agree(make_scene, pixel_rays, plank, (0.01, 20), degrees=33.0, **seen)
 
 
 @pytest.mark.parametrize("length", [2.0, 101.0, 2000.0])
