@@ -166,6 +166,18 @@ LIKE_JUPYTER = {
     "prompts": (">>> k = 2\n>>> k += 1", "In [3]: j = 2", BLUR.format(factor="k * j")),
     "doctest in a text": ('k = """\n%time x\n!ls\n"""', BLUR.format(factor="len(k)")),
     "a comment over a magic's name": ("#%%time\nk = 3", BLUR.format(factor="k")),
+    "a name of a package that is something else": (
+        "import time\nt = time.time()",
+        "t = [1]",
+        "t.append(4)",
+        "from numpy import add as render\ndef render(t): t.append(5)",
+        "render(t)",
+        BLUR.format(factor="len(t) * t[1]"),
+    ),
+    "star below try": (
+        "try:\n    from numpy import *\nexcept ImportError:\n    pass",
+        "def displacement(velocity, time):\n    return asarray(velocity)[:, None] * time",
+    ),
     "from the future": (
         "k = 2",
         "from __future__ import annotations",
@@ -418,3 +430,16 @@ def test_a_notebook_saved_as_a_program(tmp_path: Path) -> None:
     assert found.remarks == (
         "motion_blur.py, a notebook saved as a program: cell 1, line 16: left out: j = !ls",
     )
+
+
+def test_bars_of_progress_leave_the_loop() -> None:
+    """tqdm is in no worker; a table of 3 + 2 + 1 items is filled under its bars."""
+    found = converted(
+        "import numpy as np\nimport tqdm as bars\nt = []",
+        "for i in bars.tqdm(range(3), desc='rows'):\n    t.append(i)",
+        "for i in bars.trange(2):\n    t.append(i)",
+        "with bars.tqdm(total=2) as bar:\n    bar.update(1)\n    t.append(9)\n    bar.update(1)",
+        BLUR.format(factor="len(t)"),
+    )
+    assert b"tqdm" not in found.sources["motion_blur"]
+    np.testing.assert_array_equal(moved(found.sources["motion_blur"])[0], 6 * TIME)
