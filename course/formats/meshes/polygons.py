@@ -5,7 +5,6 @@ less than once. Ears are cut by mapbox_earcut (Held, "FIST: Fast industrial-stre
 A polygon's plane is at right angles to Newell's normal, the sum of cross(p_i, p_i+1).
 """
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -158,15 +157,13 @@ def _ears(places: Floats64, area: float) -> tuple[Indices | None, bool]:
         -1, 3
     )
     ears = found.astype(np.intp)
-    # A corner at the end of a spike lies on no triangle's edge, and is left out.
-    padded = np.pad(ears, ((0, max(0, length - 2 - len(ears))), (0, 0)))
-    for rows in (_with_all_corners(ears, length), padded):
-        if len(rows) == length - 2:
-            x, y = np.moveaxis(places[rows[:, 1:]] - places[rows[:, :1]], 2, 0)
-            total = np.abs(x[:, 0] * y[:, 1] - y[:, 0] * x[:, 1]).sum() / 2
-            if abs(total - area) <= SAME_AREA * area:
-                return rows, True
-    return None, False
+    # A corner at the end of a spike is in no triangle, and has one without area instead.
+    rows = np.pad(ears, ((0, max(0, length - 2 - len(ears))), (0, 0)))
+    x, y = np.moveaxis(places[rows[:, 1:]] - places[rows[:, :1]], 2, 0)
+    total = np.abs(x[:, 0] * y[:, 1] - y[:, 0] * x[:, 1]).sum() / 2
+    if len(rows) != length - 2 or abs(total - area) > SAME_AREA * area:
+        return None, False
+    return rows, True
 
 
 def _evened(places: Floats64) -> Floats64:
@@ -175,35 +172,3 @@ def _evened(places: Floats64) -> Floats64:
     squares, axes = np.linalg.eigh(edges.T @ edges)
     axes[:, 0] *= np.sign(np.linalg.det(axes))
     return np.asarray(places @ axes / np.sqrt(np.maximum(squares, 1e-20 * squares[1])))
-
-
-def _with_all_corners(rows: Indices, length: int) -> Indices:
-    """Triangles that have every corner of their polygon, also those on a straight line, which ears leave out.
-
-    An edge p q of a triangle must be one of the polygon, or another triangle's the other way round. Where it is
-    neither, edges p c, c q are missing along the same line; there the triangle is divided.
-    """
-    if len(rows) == length - 2:
-        return rows
-    edges = {(int(r[k]), int(r[(k + 1) % 3])) for r in rows for k in range(3)}
-    around = {(k, (k + 1) % length) for k in range(length)}
-    missing: dict[int, list[int]] = {}
-    for p, q in (around | {(q, p) for p, q in edges if (p, q) not in around}) - edges:
-        missing.setdefault(p, []).append(q)
-    left, done = [tuple(int(c) for c in row) for row in rows], list[tuple[int, ...]]()
-    while left and len(left) + len(done) <= length:
-        row = left.pop()
-        for k in range(3):
-            p, q, top = row[k], row[(k + 1) % 3], row[(k + 2) % 3]
-            if (p, q) in around or (q, p) in edges or not missing.get(p):
-                continue
-            chain = [p]
-            while chain[-1] != q and missing.get(chain[-1]):
-                chain.append(missing[chain[-1]].pop())
-            if chain[-1] == q:
-                left += [(a, b, top) for a, b in itertools.pairwise(chain)]
-                edges.update(zip(chain[1:], chain[:-1], strict=True))
-                break
-        else:
-            done.append(row)
-    return np.array(done + left, np.intp).reshape(-1, 3)
