@@ -5,7 +5,6 @@ import json
 import random
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
+from benchmarks.mutants.cells import in_cells
 from course.grading.classes.job import Job, grade_job
 from course.grading.classes.keeping import fingerprint
 from course.grading.classes.notebooks import Notebook, _converted, read_notebook
@@ -317,34 +317,6 @@ def test_a_thousand_cells() -> None:
     assert told.endswith("and 989 cells more")
 
 
-NOISE = (
-    "%matplotlib inline\nimport matplotlib.pyplot as plt",
-    "plt.figure(); plt.show()",
-    "!pip install numpy",
-    "some thoughts of mine",
-    "np.random.default_rng?",
-    "trial = [i for i in range(3)]\nfor one in trial:\n    print(one)",
-    "# \u2028 pasted",
-    "raise KeyboardInterrupt",
-)
-
-
-def in_cells(source: str, rng: random.Random) -> bytes:
-    """A module's text as a notebook: cut between statements at random, with cells of other things between."""
-    lines = source.split("\n")
-    starts = [
-        min([node.lineno, *(one.lineno for one in getattr(node, "decorator_list", ()))])
-        for node in ast.parse(source).body
-    ]
-    cuts = [0, *sorted(line - 1 for line in starts[1:] if rng.random() < 0.6), len(lines)]
-    cells = ["\n".join(lines[a:b]) for a, b in pairwise(cuts)]
-    # A docstring stays where it is; magic over a cell, and cells of other things anywhere.
-    cells = [f"%%time\n{cell}" if rng.random() < 0.2 else cell for cell in cells]
-    for _ in range(5):
-        cells.insert(rng.randrange(1, len(cells) + 1), rng.choice(NOISE))
-    return notebook(*cells)
-
-
 RIGHT = [(module, one.name, one.source) for module in COURSE for one in known(module) if one.right]
 
 
@@ -433,7 +405,7 @@ def test_a_notebook_saved_as_a_program(tmp_path: Path) -> None:
 
 
 def test_bars_of_progress_leave_the_loop() -> None:
-    """tqdm is in no worker; a table of 3 + 2 + 1 items is filled under its bars."""
+    """No worker has tqdm; a table of 3 + 2 + 1 items is filled under its bars."""
     found = converted(
         "import numpy as np\nimport tqdm as bars\nt = []",
         "for i in bars.tqdm(range(3), desc='rows'):\n    t.append(i)",
