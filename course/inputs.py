@@ -4,6 +4,7 @@ A pipe might never begin and a device never end. So nothing is read before the f
 its name, has been looked at, and never more than the bound of its kind.
 """
 
+import codecs
 import errno
 import os
 import stat
@@ -109,6 +110,40 @@ def read_input(
     if len(content) > bound.most:
         raise error(_too_large(path, what, bound))
     return content
+
+
+INVISIBLE: Final = "\ufeff\u200b\u200c\u200d\u200e\u200f\u2060\u00ad"
+"""Characters that some programs write before a text's first word, and that no editor shows."""
+
+_MARKS: Final = (
+    (codecs.BOM_UTF32_LE, "utf-32"),
+    (codecs.BOM_UTF32_BE, "utf-32"),
+    (codecs.BOM_UTF16_LE, "utf-16"),
+    (codecs.BOM_UTF16_BE, "utf-16"),
+)
+"""Marks of the order of bytes; the longer ones begin as the shorter ones do."""
+
+
+def without_marks(content: bytes, errors: str = "strict") -> bytes:
+    """The bytes of a file, from its first visible character on; where its byte order mark says so, as UTF-8.
+
+    Raises UnicodeDecodeError where bytes aren't what the mark says, unless ``errors`` is "replace".
+    """
+    for mark, encoding in _MARKS:
+        if content.startswith(mark):
+            return content.decode(encoding, errors).lstrip(INVISIBLE).encode()
+    start = content[: 16 * len(INVISIBLE)].decode("utf-8", "replace")
+    unseen = len(start) - len(start.lstrip(INVISIBLE))
+    return content[len(start[:unseen].encode()) :] if unseen else content
+
+
+def text_of(content: bytes, errors: str = "strict") -> str:
+    """Text of any file: UTF-8, or what its byte order mark says, without what nobody sees before its first word.
+
+    Raises UnicodeDecodeError where bytes are no such text.
+    ``errors``: "replace" puts a mark in the place of such bytes, as for comments of another encoding
+    """
+    return without_marks(content, errors).decode("utf-8", errors)
 
 
 def read_arrays(

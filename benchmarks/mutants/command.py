@@ -5,7 +5,8 @@ what is of no use earns a quarter at most, what is wrong in a corner only four f
 status, mistake and points of every check of every submission, and for the grader which checks a mistake explains;
 ``--compare`` names all that has changed since, and ends with 1 where something has: the referee of changes that are to
 change no score. ``--varied`` prints what the checks' arguments have been, and what is never varied;
-``--habits`` what right functions lose that are written in other ways. ``--false-fail``
+``--habits`` what right functions lose that are written in other ways, ``--cells`` what right submissions lose as
+notebooks. ``--false-fail``
 estimates how often a right submission fails by chance: the statistical checks alone, for thousands of seeds. All end
 with a table of the modules.
 """
@@ -21,6 +22,7 @@ from pathlib import Path
 
 import click
 
+from benchmarks.mutants.cells import as_notebook
 from benchmarks.mutants.habits import HABITS, lost_by
 from benchmarks.mutants.judging import (
     Verdict,
@@ -76,6 +78,7 @@ TOGETHER = "together"
     metavar="SEEDS",
     help="Check the reference, written by other habits, over that many seeds.",
 )
+@click.option("--cells", is_flag=True, help="Grade the right submissions as notebooks only.")
 @click.option("--varied", is_flag=True, help="Print what the checks vary, and what they never do.")
 @click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write the results.")
 @click.option("--record", type=click.Path(path_type=Path), help="Write what became of each check.")
@@ -86,6 +89,7 @@ def main(
     jobs: int,
     false_fail: int | None,
     habits: int | None,
+    cells: bool,
     varied: bool,
     json_file: Path | None,
     record: Path | None,
@@ -106,12 +110,19 @@ def main(
         file = Path(folder) / "references.npz"
         make_references(chosen, seed, file)
         submissions = [submission for module in chosen for submission in known(module)]
+        if cells:
+            submissions = [as_notebook(one, seed) for one in submissions if one.right]
         verdicts = []
         for verdict in pool.map(
             _judged, submissions, [seed] * len(submissions), [file] * len(submissions)
         ):
             verdicts.append(verdict)
             print("\n".join(matrix([verdict])), flush=True)
+        if cells:
+            print(
+                f"\n{len(verdicts)} notebooks, {sum(bool(one.fault) for one in verdicts)} lost points"
+            )
+            sys.exit(any(verdict.fault for verdict in verdicts))
         print(f"\n{kills(chosen, verdicts).markdown()}\n\n{fairness(chosen, verdicts).markdown()}")
         others = [variant for module in chosen for variant in variants(module)]
         others_judged = [

@@ -29,7 +29,7 @@ RENDERING = (
 )
 """The packages of the course that have a say in a picture."""
 
-LIBRARIES = ("numpy", "pillow", "trimesh")
+LIBRARIES = ("numpy", "pillow", "mapbox_earcut")
 
 
 @lru_cache(maxsize=8)

@@ -5,8 +5,7 @@ triangle (``course.core.triangles``). Beside a thing of size s at distance d a t
 if R is many times max(s, d). It is halved until it isn't, or until its largest coordinate is that of the place where it
 lies, which no cut makes smaller: small things should lie near the origin (``course.building.small_objects``).
 
-Rays leave long thin triangles from further above, and are hit less precisely along them (``course.core.ray_offset``).
-These are halved, too, where that shows beside the things.
+Before that, long thin triangles are cut across (``course.building.slicing``).
 
 No ray slips through: triangles that share an edge share the corners that it is cut at, to the last bit, whichever
 object they belong to. Data of corners are interpolated for new corners as they are at hits, so no hit changes.
@@ -19,43 +18,25 @@ finite-element spaces with hierarchical bases", 1991.)
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from course.core import ray_offset
+from course.building.slicing import sliced, too_thin
+from course.building.triangles import (
+    NEAR,
+    TOO_LARGE,
+    SmallThings,
+    Triangles,
+    ends_of,
+    largest,
+    nearest_of,
+)
 from course.core.types import Floats64, Indices, Mask
 from course.extras.painting import Paint
 from course.extras.surface import FullPart
 from course.formats.meshes.parts import same
 from course.shapes.mesh import Mesh
-
-
-@dataclass(frozen=True)
-class Triangles:
-    """Triangles over shared vertices.
-
-    Attributes
-    ----------
-    vertices : (V, 3) float64
-    corners : (T, 3) intp, counter-clockwise seen from the front; the edge from corner 0 to corner 1 is next
-    origin : (T,) intp, the triangle that each was a part of in the beginning
-    """
-
-    vertices: Floats64
-    corners: Indices
-    origin: Indices
-
-    @property
-    def size(self) -> int:
-        """Number of triangles."""
-        return len(self.corners)
-
-    def areas(self) -> Floats64:
-        """(T,)."""
-        p = self.vertices[self.corners]
-        areas: Floats64 = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1) / 2
-        return areas
 
 
 def undivided(vertices: Floats64, corners: Indices) -> Triangles:
@@ -113,17 +94,6 @@ def _halves(
     return found, origins
 
 
-TOO_LARGE = 1024.0
-"""Largest offset of rays beside a thing, in OFFSETs of the thing's size, that is invisible.
-
-It is then a 512th of the size, and changes a picture full of the thing's shadows by less than 1e-3.
-"""
-
-NEAR = 2.0
-"""A triangle whose largest coordinate is at most this many times that of its nearest point is not cut: it would be of
-little use."""
-
-
 CANCELLED = 1e-9
 """Length of a normal that has none, as short as float32 has them beside others."""
 
@@ -131,49 +101,28 @@ MOST = 50_000
 """Pieces from which on nothing more is cut: a thing beside a floor takes some hundred, but needles that lie over each
 other, a million times as long as wide, could take any number."""
 
-FLAT = 2.0**-24
-"""Height of a triangle without area in float32, as a share of its largest coordinate."""
-
-
-@dataclass(frozen=True)
-class SmallThings:
-    """F boxes in which something small lies.
-
-    Attributes
-    ----------
-    low, high : (F, 3) float64, their corners
-    size : (F,) float64, of what lies there, positive
-    """
-
-    low: Floats64
-    high: Floats64
-    size: Floats64
-
-    @property
-    def least(self) -> float:
-        """Size of the smallest; infinite where there are none."""
-        return float(self.size.min(initial=np.inf))
-
 
 def cut(parts: list[FullPart], things: SmallThings, ratio: float) -> list[FullPart]:
-    """The same surfaces, with triangles cut that are more than ``ratio`` times as large as what lies beside them.
+    """The same surfaces, with triangles cut that are too thin or too large for what lies beside them.
 
     Parameters
     ----------
     parts : whose coordinates lie in about [-1, 1]
     things : in the same coordinates
+    ratio : how many times as large as what lies beside it a triangle may be
     """
     vertices = np.concatenate([part.mesh.vertices for part in parts])
     first = np.cumsum([0, *(len(part.mesh.vertices) for part in parts)])
     corners = np.concatenate(
         [part.mesh.triangles + start for part, start in zip(parts, first, strict=False)]
     ).astype(np.intp)
-    if not _too_large(vertices[corners], things, ratio).any():
+    p = vertices[corners]
+    if not (_too_large(p, things, ratio).any() or too_thin(p, things).any()):
         return parts
     # Embree sees float32: what is one place there is one here.
     rounded = vertices.astype(np.float32)
     places, place = same(*rounded.T)
-    pieces = _cut(vertices[places], place[corners], things, ratio)
+    pieces = _cut(sliced(vertices[places], place[corners], things), things, ratio)
     ends = np.cumsum([len(part.mesh.triangles) for part in parts])
     counts = np.bincount(pieces.origin, minlength=len(corners))
     halved = np.flatnonzero(counts[pieces.origin] > 1)
@@ -192,62 +141,33 @@ def cut(parts: list[FullPart], things: SmallThings, ratio: float) -> list[FullPa
 def unfinished(parts: Sequence[FullPart], things: SmallThings) -> list[int]:
     """Numbers of the parts with triangles that should have been cut further, by far; see ``MOST``."""
     coarse = 16 * TOO_LARGE
+    corners = [part.mesh.vertices[part.mesh.triangles] for part in parts]
     return [
         number
-        for number, part in enumerate(parts)
-        if _too_large(part.mesh.vertices[part.mesh.triangles], things, coarse, coarse).any()
+        for number, p in enumerate(corners)
+        if _too_large(p, things, coarse).any() or too_thin(p, things, coarse).any()
     ]
 
 
-def _too_large(
-    p: Floats64, things: SmallThings, ratio: float, thin_ratio: float = TOO_LARGE
-) -> Mask:
-    """Mask (T,) of the triangles (T, 3 corners, 3) to be halved; ``thin_ratio``: see ``TOO_LARGE``."""
-    low, high = p.min(axis=1), p.max(axis=1)
-    reach = np.maximum(-low, high).max(axis=1, initial=0)
-    nearest = np.maximum(low, -high).max(axis=1, initial=0)
+def _too_large(p: Floats64, things: SmallThings, ratio: float) -> Mask:
+    """Mask (T,) of the triangles (T, 3 corners, 3) to be halved."""
+    low, high = ends_of(p)
+    reach, nearest = largest(np.maximum(-low, high)), nearest_of(low, high)
     large: Mask = reach > np.maximum(NEAR * nearest, ratio * things.least)
-    # No triangle is raised by more than MOST times its length.
-    wide = np.sqrt(3) * ray_offset.MOST * (high - low).max(axis=1, initial=0)
-    long = np.flatnonzero(wide > thin_ratio * things.least)
-    above = np.zeros(len(p))
-    above[long] = raised_offsets(p[long]) / ray_offset.OFFSET
-    thin: Mask = above > np.maximum(NEAR * nearest, thin_ratio * things.least)
-    some = np.flatnonzero(large | thin)
-    # A thing at a time: they may be many, and so may the triangles, but seldom both.
-    limit = np.full(len(some), np.inf)
-    for thing_low, thing_high, size in zip(things.low, things.high, things.size, strict=True):
-        apart = np.maximum(low[some] - thing_high, thing_low - high[some]).max(axis=1, initial=0)
-        np.minimum(limit, np.maximum(apart, size), out=limit)
-    large[some] &= reach[some] > ratio * limit
-    large[some] |= thin[some] & (above[some] > thin_ratio * limit)
+    some = np.flatnonzero(large)
+    large[some] = reach[some] > ratio * things.limit(low[some], high[some])
     return large
 
 
-def raised_offsets(p: Floats64) -> Floats64:
-    """Least offsets (T,) of triangles (T, 3 corners, 3) because they are thin, 0 of others or without an area."""
-    edges = np.roll(p, -1, axis=1) - p
-    longest = np.sqrt(np.einsum("tkc,tkc->tk", edges, edges).max(axis=1, initial=0))
-    twice_area = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    reach = np.abs(p).max(axis=(1, 2), initial=0)
-    there = twice_area > FLAT * reach * longest
-    thin = np.flatnonzero(there & (longest * longest > ray_offset.SLIVER * twice_area))
-    found = np.zeros(len(p))
-    found[thin] = ray_offset.raised(longest[thin], twice_area[thin])
-    return found
-
-
-def _cut(vertices: Floats64, corners: Indices, things: SmallThings, ratio: float) -> Triangles:
-    """Pieces of those triangles that are too large, and of those that have to be halved with them.
-
-    Others share no edge with them that is halved; some that are whole are among them.
-    """
+def _cut(whole: Triangles, things: SmallThings, ratio: float) -> Triangles:
+    """All triangles, those that are too large in pieces, and those that have to be halved with them."""
+    corners = whole.corners
     # Triangles with two equal corners have no area in float32, and are ignored.
     there = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
-    inside = there & _too_large(vertices[corners], things, ratio)
+    inside = there & _too_large(whole.vertices[corners], things, ratio)
     while True:
         numbers = np.flatnonzero(inside)
-        pieces = undivided(vertices, corners[numbers])
+        pieces = undivided(whole.vertices, corners[numbers])
         edges = _edges(corners[numbers])
         while len(pieces.corners) < MOST:
             chosen = _too_large(pieces.vertices[pieces.corners], things, ratio)
@@ -262,8 +182,13 @@ def _cut(vertices: Floats64, corners: Indices, things: SmallThings, ratio: float
         outside = np.flatnonzero(there & ~inside)
         touched = np.isin(_edges(corners[outside]), gone).reshape(-1, 3).any(axis=1)
         if not touched.any():
-            return replace(pieces, origin=numbers[pieces.origin])
+            break
         inside[outside[touched]] = True
+    return Triangles(
+        pieces.vertices,
+        np.concatenate((corners[~inside], pieces.corners)),
+        np.concatenate((whole.origin[~inside], whole.origin[numbers[pieces.origin]])),
+    )
 
 
 def _edges(corners: Indices) -> Indices:

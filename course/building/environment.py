@@ -18,6 +18,7 @@ from course.extras.sky import CosineSampling, SkySampling
 from course.extras.textures import Texture
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
+from course.formats.yaml.document import KeyPath
 from course.formats.yaml.loading import Loaded, read_named_picture
 
 LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
@@ -61,7 +62,7 @@ def compile_environment(
     if isinstance(environment, d.CubeEnvironment):
         faces = _faces(environment, loaded)
     else:
-        image = read_named_picture(environment.image, ("environment", "image"), loaded)
+        image = _picture(environment.image, ("environment", "image"), loaded, environment)
         height, width = image.shape[:2]
         angular = isinstance(environment, d.AngularEnvironment)
         if width != height * (1 if angular else 2):
@@ -94,7 +95,7 @@ def compile_environment(
 def _backdrop(environment: d.BackdropEnvironment, loaded: Loaded, bound: Bound) -> Any:
     from course.extras.backdrop import Backdrop
 
-    image = read_named_picture(environment.image, ("environment", "image"), loaded)
+    image = _picture(environment.image, ("environment", "image"), loaded, environment)
     scale = rgb(environment.scale)
     brightest = image.max(axis=(0, 1)) * scale
     in_range(brightest, loaded, ("environment", "scale"), "radiance")
@@ -144,19 +145,28 @@ def _anything_diffuse(loaded: Loaded) -> bool:
     return any(diffuse_share(material).any() for material in used)
 
 
+def _picture(
+    file: str,
+    path: KeyPath,
+    loaded: Loaded,
+    environment: d.CubeEnvironment | d.LatLongEnvironment | d.BackdropEnvironment,
+) -> Floats32:
+    return read_named_picture(file, path, loaded, layer=environment.layer)
+
+
 def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:
     if (environment.faces is None) == (environment.cross is None):
         raise loaded.document.error(("environment",), "give exactly one of faces and cross")
     if environment.cross is not None:
         key = ("environment", "cross")
         try:
-            return cube_from_cross(read_named_picture(environment.cross, key, loaded))
+            return cube_from_cross(_picture(environment.cross, key, loaded, environment))
         except ValueError as error:
             raise loaded.document.error(key, str(error)) from error
     pictures: list[Floats32] = []
     for number, file in enumerate(environment.faces or ()):
         path = ("environment", "faces", number)
-        picture = read_named_picture(file, path, loaded)
+        picture = _picture(file, path, loaded, environment)
         height, width = picture.shape[:2]
         if height != width or picture.shape != (pictures or [picture])[0].shape:
             raise loaded.document.error(

@@ -1,15 +1,20 @@
 """From object descriptions to meshes in the units of the scene file."""
 
+import warnings
 from pathlib import Path
 
 import msgspec
+import numpy as np
 
 from course import shapes
-from course.errors import GeometryError, SceneError
+from course.errors import CourseWarning, GeometryError, SceneError
 from course.formats.meshes import transforms
+from course.formats.meshes.named import Named
 from course.formats.yaml import description as d
-from course.formats.yaml.document import Document
+from course.formats.yaml.document import Document, show
 from course.formats.yaml.loading import bytes_of_files
+from course.formats.yaml.parting import listed
+from course.formats.yaml.suggestions import suggest
 from course.inputs import Bound
 from course.shapes.mesh import Mesh
 
@@ -22,7 +27,7 @@ def object_mesh(
     number: int,
     document: Document,
     folder: Path,
-    files: dict[str, Mesh] | None = None,
+    files: dict[str, Named] | None = None,
 ) -> Mesh:
     """The mesh of one object, transformed.
 
@@ -31,7 +36,10 @@ def object_mesh(
     """
     path = ("objects", number)
     try:
-        mesh = _local_mesh(thing, folder, {} if files is None else files, bytes_of_files(document))
+        where = document.where((*path, "material"))
+        mesh = _local_mesh(
+            thing, where, folder, {} if files is None else files, bytes_of_files(document)
+        )
         if thing.transform:
             steps = map(transforms.of_step, msgspec.to_builtins(thing.transform))
             mesh = transforms.apply(mesh, transforms.compose(steps))
@@ -43,18 +51,45 @@ def object_mesh(
     return mesh
 
 
-def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh], bound: Bound) -> Mesh:
+def _local_mesh(
+    thing: d.Object, where: str, folder: Path, files: dict[str, Named], bound: Bound
+) -> Mesh:
     if isinstance(thing, d.MeshFile):
-        # trimesh behind it is heavy; a scene of named shapes never imports it.
-        from course.formats.meshes.files import read_mesh
+        # The readers are many; a scene of named shapes never imports them.
+        from course.formats.meshes.files import read_named_mesh
 
         read = f"{thing.normals} {thing.file}"
         if read not in files:
-            files[read] = read_mesh(folder / thing.file, thing.normals, bound)
-        return files[read]
+            files[read] = read_named_mesh(folder / thing.file, thing.normals, bound)
+            if len(files[read].names) > 1 and thing.only is None:
+                warnings.warn(
+                    f"{where}: {listed(list(files[read].names))} of {thing.file} all have material"
+                    f" {show(thing.material)}; materials gives them others",
+                    CourseWarning,
+                    stacklevel=2,
+                )
+        return files[read].mesh if thing.only is None else _only(thing, files[read])
     # A shape's own keys are the parameters of the function of its name.
     own = [name for name in thing.__struct_fields__ if name not in d.SHARED]
     mesh: Mesh = getattr(shapes, str(thing.__struct_config__.tag))(
         **{name: getattr(thing, name) for name in own}
     )
     return mesh
+
+
+def _only(thing: d.MeshFile, found: Named) -> Mesh:
+    """The faces of some of a file's materials; GeometryError where it hasn't one of them."""
+    assert thing.only is not None
+    for name in thing.only:
+        if name not in found.names:
+            hint = suggest(name, found.names)
+            raise GeometryError(
+                f"only: no face of {thing.file} has a material {show(name)}; {hint}"
+            )
+    numbers = [found.names.index(name) for name in thing.only]
+    mesh = found.mesh
+    triangles = mesh.triangles[np.isin(found.name, numbers)]
+    used, corners = np.unique(triangles, return_inverse=True)
+    normals, uv = (None if rows is None else rows[used] for rows in (mesh.normals, mesh.uv))
+    corners = corners.reshape(-1, 3).astype(triangles.dtype)
+    return Mesh(mesh.vertices[used], corners, normals, uv)

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.building.cutting import MOST, TOO_LARGE, SmallThings, raised_offsets, unfinished
+from course.building.cutting import MOST, unfinished
 from course.building.frame import FARTHEST, Frame, bounds_of, frame_of
 from course.building.motion import Shutter
+from course.building.triangles import TOO_LARGE, SmallThings, ends_of, raised_offsets
 from course.core.ray_offset import OFFSET
 from course.core.types import Floats64, Indices
 from course.errors import CourseWarning
@@ -323,7 +324,7 @@ def _raisers(mesh: Mesh) -> tuple[Floats64, Floats64]:
 
 def _largest_in(box: Floats64, axis: int, p: Floats64, offsets: Floats64) -> float:
     """Largest of the offsets (R,) of triangles (R, 3, 3) that reach into a box (2, 3) and lie across an axis."""
-    ends, (low, high) = np.sort(box, axis=0), (p.min(axis=1), p.max(axis=1))
+    ends, (low, high) = np.sort(box, axis=0), ends_of(p)
     room = (ends[1] - ends[0])[axis] / 64
     there = ((low <= ends[1] + room) & (high >= ends[0] - room)).all(axis=1)
     across = high[:, axis] - low[:, axis] < room

@@ -12,6 +12,7 @@ from course.effects import Bound
 from course.extras.painting import Paint
 from course.extras.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
 from course.formats.meshes import transforms
+from course.formats.meshes.named import Named
 from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription, rgb
 from course.formats.yaml.document import KeyPath
@@ -54,12 +55,12 @@ class Painter:
     ``files``: mesh files that have been read, by their normals and names in the scene; ``scale``: that of the frame.
     """
 
-    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Mesh], scale: float) -> None:
+    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Named], scale: float) -> None:
         self._loaded = loaded
         self._scale = scale
         self._bound = bound
         self._files = files
-        self._images: dict[str, Floats32] = {}
+        self._images: dict[tuple[str, str | None], Floats32] = {}
         self._latest: tuple[int, Floats64, Floats64] = -1, *(np.zeros((0, 3, 3)),) * 2
 
     def paint(self, number: int, mesh: Mesh) -> Paint | None:
@@ -122,9 +123,7 @@ class Painter:
         asked_by = ("materials", thing.material, "normal_map")
         described = material.normal_map
         nearest = described.interpolation == "nearest"
-        corners, known = self._relief(
-            described.image, described.repeat, number, mesh, asked_by, nearest
-        )
+        corners, known = self._relief(described, number, mesh, asked_by, nearest)
         return Paint(corners, known)
 
     def _bump(self, described: d.BumpDescription, number: int, mesh: Mesh) -> Paint:
@@ -143,15 +142,14 @@ class Painter:
             return Paint(carved.corners, raised)
         assert described.image is not None
         asked_by = ("materials", thing.material, "bump")
-        corners, known = self._relief(described.image, described.repeat, number, mesh, asked_by)
+        corners, known = self._relief(described, number, mesh, asked_by)
         size = np.maximum(np.array(known.color.image.shape[1::-1]) * described.repeat, FEWEST)
         raised = BumpMap(PictureHeights(known, (0.5 / size).astype(np.float32)), height)
         return Paint(corners, raised)
 
     def _relief(
         self,
-        image: str,
-        repeat: tuple[float, float],
+        described: d.NormalMapDescription | d.BumpDescription,
         number: int,
         mesh: Mesh,
         asked_by: KeyPath,
@@ -160,18 +158,19 @@ class Painter:
         """What an object's corners carry, and its normal map by a picture."""
         from course.extras.normal_maps import NormalMap
 
-        colors = self._normals(image, (*asked_by, "image"))
+        assert described.image is not None
+        colors = self._normals(described.image, (*asked_by, "image"), described.layer)
         lookup = self._bound.function("textures", "texture_lookup", asked_by)
-        texture = Texture(colors, np.array(repeat, np.float32), lookup, nearest)
+        texture = Texture(colors, np.array(described.repeat, np.float32), lookup, nearest)
         corners, places = self._places(number, mesh, asked_by)
         wraps = places_function(self._loaded.description.objects[number]) == "sphere_uv"
         return corners, NormalMap(texture, places, wraps)
 
-    def _normals(self, file: str, path: KeyPath) -> Floats32:
+    def _normals(self, file: str, path: KeyPath, layer: str | None) -> Floats32:
         """Colours of a picture of normals; those of PNG and JPEG are codes, without sRGB's curve."""
-        key = f"normals of {file}"
+        key = f"normals of {file}", layer
         if key not in self._images:
-            self._images[key] = read_named_picture(file, path, self._loaded, codes=True)
+            self._images[key] = read_named_picture(file, path, self._loaded, True, layer)
         return self._images[key]
 
     def _places(self, number: int, mesh: Mesh, asked_by: KeyPath) -> tuple[Floats64, Places]:
@@ -216,17 +215,18 @@ class Painter:
         return object_mesh(still, number, loaded.document, loaded.path.parent, self._files)
 
     def _texture(self, texture: TextureDescription, path: KeyPath) -> Texture:
-        if texture.image not in self._images:
-            self._images[texture.image] = self._read(texture.image, path)
+        key = texture.image, texture.layer
+        if key not in self._images:
+            self._images[key] = self._read(*key, path)
         return Texture(
-            self._images[texture.image],
+            self._images[key],
             np.array(texture.repeat, np.float32),
             self._bound.function("textures", "texture_lookup", path[:-1]),
             texture.interpolation == "nearest",
         )
 
-    def _read(self, file: str, path: KeyPath) -> Floats32:
-        image = read_named_picture(file, path, self._loaded)
+    def _read(self, file: str, layer: str | None, path: KeyPath) -> Floats32:
+        image = read_named_picture(file, path, self._loaded, layer=layer)
         # By its largest value, for which no array of the picture's size is made.
         if image.max(initial=0) > 1:
             y, x, channel = np.argwhere(image > 1)[0]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from course.building.cameras import compile_lens, make_camera, make_window_camera
-from course.building.cutting import TOO_LARGE, SmallThings, cut
+from course.building.cutting import cut
 from course.building.environment import compile_environment
 from course.building.frame import Frame, bounds_of, in_range, in_reach
 from course.building.gloss import (
@@ -31,6 +31,7 @@ from course.building.small_objects import (
     warn_of_unfinished,
 )
 from course.building.textures import Painter, shows_specular_texture, shows_texture
+from course.building.triangles import TOO_LARGE, SmallThings
 from course.core.camera import Camera
 from course.core.ray_offset import OFFSET
 from course.core.types import Floats64
@@ -38,6 +39,7 @@ from course.effects import Bound, Effects, Need
 from course.extras.own_lamp import without_own_lamp
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.extras.world import FullWorld
+from course.formats.meshes.named import Named
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
@@ -76,7 +78,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     bound = Bound(effects)
     shutter = shutter_of(loaded)
     meshes: list[Mesh] = []
-    files: dict[str, Mesh] = {}
+    files: dict[str, Named] = {}
     bounds: list[Floats64] = []
     boxes: list[Floats64] = []
     for number, thing in enumerate(scene.objects):
@@ -221,7 +223,7 @@ def _painter(
     used: dict[str, d.MaterialDescription],
     loaded: Loaded,
     bound: Bound,
-    files: dict[str, Mesh],
+    files: dict[str, Named],
     scale: float,
 ) -> Painter | None:
     """What paints the objects; None where no surface shows a texture."""

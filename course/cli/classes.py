@@ -172,6 +172,8 @@ def tell_finished(finished: Finished) -> None:
         click.echo(f"{count(len(compared.left_out), 'file')} not compared; class.html lists them")
     for name in finished.unused:
         click.echo(f"the policy names {name}, who has handed in nothing", err=True)
+    for told in finished.told:
+        click.echo(told, err=True)
     if matched is not None:
         for text, names in (
             ("submissions of nobody in the roster", matched.unknown),

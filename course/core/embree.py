@@ -32,8 +32,12 @@ class EmbreeCaster:
         return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
 
     def free(self, origin: Floats32, direction: Floats32, limit: Floats32 | float) -> Mask:
-        """See ``Caster``; embreex returns 0 where the ray is blocked; elsewhere, and for negative limits, -1."""
-        return np.asarray(self._run(origin, direction, limit, query="OCCLUDED") < 0)
+        """See ``Caster``; embreex returns 0 where the ray is blocked, and for negative limits, elsewhere -1."""
+        # Before embreex overwrites the limits.
+        unasked = np.less(limit, 0)
+        free: Mask = self._run(origin, direction, limit, query="OCCLUDED") < 0
+        free |= unasked
+        return free
 
     def _run(self, origin: Floats32, direction: Floats32, *limit: Any, **query: Any) -> Any:
         if origin.shape[1] < direction.shape[1]:

@@ -34,7 +34,7 @@ Hit points and the casters' tests have an error of a few rounding errors (2^-24 
 tests/geometry/test_surface.py measures it.
 """
 
-SLIVER = 8.0
+SLIVER = 16.0
 """A triangle is thin if its longest edge L is more than SLIVER times its height H."""
 
 LONG, MOST = 64.0, 1024.0

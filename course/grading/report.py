@@ -69,6 +69,7 @@ class Report(Total):
     version : likewise
     seconds : wall clock of it all
     trouble : why the submission could not be graded; empty if it was
+    remarks : what was guessed of the files that were handed in, and what of them was left out
     """
 
     student: str
@@ -79,6 +80,7 @@ class Report(Total):
     version: str = ""
     seconds: float = 0.0
     trouble: str = ""
+    remarks: Sequence[str] = ()
 
     def parts(self) -> tuple[Result, ...]:
         """Its results."""

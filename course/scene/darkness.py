@@ -40,10 +40,7 @@ from course.scene.scene import Scene
 def why_black(scene: Scene) -> str:
     """Say why every picture of a scene is black for want of light; empty where there is some."""
     world, lights = scene.compiled.world, scene.loaded.description.lights
-    seen = world.materials.ambient * world.ambient[:, None] + world.materials.emission
-    if isinstance(world.materials, FullMaterials) and world.materials.unlit is not None:
-        return ""
-    if world.lights or seen.any() or world.environment is not None:
+    if world.lights or _shines(world).any() or world.environment is not None:
         return ""
     if not lights:
         kinds = ", ".join(str(kind.__struct_config__.tag) for kind in get_args(d.Light))
@@ -256,11 +253,19 @@ def _sees(world: FullWorld, met: Met, origin: Floats32, points: Floats64) -> boo
     return hits.size < len(which) or bool((emits | (hits.t > NEXT_TO * near)).any())
 
 
-def _may_show_light(world: FullWorld, hits: Hits) -> bool:
-    """True if any of the hits emits light, or mirrors or refracts that of other places."""
+def _shines(world: FullWorld) -> Mask:
+    """Which materials are seen without a light: they emit, show ambient light, or have a radiance of their own."""
     m = world.materials
-    shows = (m.emission.max(0) > 0) | (m.mirror.max(0) > 0) | m.refracts
-    shows |= (m.ambient * world.ambient[:, None]).max(0) > 0
+    shines: Mask = (m.emission.max(0) > 0) | ((m.ambient * world.ambient[:, None]).max(0) > 0)
+    if isinstance(m, FullMaterials) and m.unlit is not None:
+        shines |= m.unlit.max(0) > 0
+    return shines
+
+
+def _may_show_light(world: FullWorld, hits: Hits) -> bool:
+    """True if any of the hits shines by itself, or mirrors or refracts the light of other places."""
+    m = world.materials
+    shows = _shines(world) | (m.mirror.max(0) > 0) | m.refracts
     return bool(shows.take(hits.material).any())
 
 

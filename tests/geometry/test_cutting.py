@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from course import shapes
 from course.building import cutting
-from course.building.cutting import NEAR, SmallThings, cut
+from course.building.cutting import cut
+from course.building.triangles import NEAR, SmallThings
 from course.core.accelerator import QueryStats
 from course.core.ray_offset import OFFSET
 from course.core.types import Floats32
@@ -30,6 +31,9 @@ def thing(size: float, at: tuple[float, float, float] = (0, 0, 0)) -> SmallThing
 
 def moved(mesh: Mesh, *steps: NDArray[np.float64]) -> Mesh:
     return transforms.apply(mesh, transforms.compose(list(steps)))
+
+
+TURN = transforms.rotate((1.0, 2.0, 3.0), 33.0)[:3, :3]
 
 
 def turned(mesh: Mesh) -> Mesh:
@@ -244,3 +248,69 @@ def test_no_ray_slips_through_the_cuts(size: float, turn: bool) -> None:
 def sides(surface: FullSurface) -> tuple[Floats32, Floats32]:
     """e1 and e2 of all triangles."""
     return surface.triangles.edges[:, :3], surface.triangles.edges[:, 3:6]
+
+
+def planks(rng: np.random.Generator, turn: bool) -> list[FullPart]:
+    """A closed box 1 : 1 : 1000, four of its sides fans of needles or caps, in an object each, moved off the origin."""
+    z = np.array([-1.0, 1.0])
+    ring = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * 1e-3
+    vertices = [[x, y, b] for b in z for x, y in ring]
+    faces = [[[0, 3, 2], [0, 2, 1]], [[4, 5, 6], [4, 6, 7]]]
+    for k in range(4):
+        a, b = k, (k + 1) % 4
+        middle = len(vertices)
+        share = rng.uniform(0.1, 0.9, 2)
+        at = np.array(vertices[a]) + share[0] * (np.array(vertices[b]) - vertices[a])
+        vertices.append([*at[:2], 2 * share[1] - 1])
+        around = [a, b, b + 4, a + 4]
+        faces.append([[around[j], around[(j + 1) % 4], middle] for j in range(4)])
+    at = np.array(vertices) + np.array([0.1, 0.05, 0])
+    parts = [FullPart(Mesh(at, np.array(side)), number) for number, side in enumerate(faces)]
+    return [replace(part, mesh=turned(part.mesh)) if turn else part for part in parts]
+
+
+@pytest.mark.parametrize("turn", [False, True])
+@pytest.mark.parametrize("size", [1e-4, 1e-6])
+def test_every_edge_of_a_closed_rod_of_thin_triangles_still_belongs_to_two(
+    size: float, turn: bool
+) -> None:
+    whole = planks(np.random.default_rng(4), turn)
+    at = np.array([[0.1, 0.05, 0.3]]) @ (TURN.T if turn else np.eye(3))
+    things = SmallThings(at - size / 2, at + size / 2, np.array([size]))
+    parts = cut(whole, things, 1024.0)
+    count = sum(len(part.mesh.triangles) for part in parts)
+    assert 100 < count < 5000
+    assert set(edges(parts).values()) == {2}
+    for before, after in zip(whole, parts, strict=True):
+        assert area(after.mesh) == pytest.approx(area(before.mesh), rel=1e-9)
+        normals = [
+            np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+            for p in (mesh.vertices[mesh.triangles] for mesh in (before.mesh, after.mesh))
+        ]
+        # All look to the same side as before.
+        assert (normals[1] @ normals[0].sum(axis=0) > 0).all()
+
+
+def test_rays_leave_thin_triangles_from_close_by_where_something_small_is() -> None:
+    size = 1e-2
+    whole = planks(np.random.default_rng(4), True)
+    things = thing(size, tuple(TURN @ (0.1, 0.05, 0)))
+    assert build_surface(whole).triangles.planes[:, 6].max() > 2 * size / 512
+    count = 0
+    for part in cut(whole, things, 1024.0):
+        p = part.mesh.vertices[part.mesh.triangles]
+        low, high = things.low - size, things.high + size
+        beside = ((p.min(axis=1) < high) & (p.max(axis=1) > low)).all(axis=1)
+        count += int(beside.sum())
+        offsets = build_surface([part]).triangles.planes[:, 6]
+        assert (offsets[beside] <= 1.01 * 2 * size / 512).all()
+    assert count > 4
+
+
+def test_a_fan_of_needles_takes_few_pieces() -> None:
+    # Halved again and again, they would take 90,000, and not be short enough then.
+    x = np.linspace(-0.15, 0.15, 9)
+    corners = np.array([(0, 0, -750.0), *((a, 0, 750.0) for a in x)]) / 750
+    fan = FullPart(Mesh(corners, np.array([(0, k + 1, k + 2) for k in range(8)])), 0)
+    (after,) = cut([fan], thing(1e-4), 1024.0)
+    assert 50 < len(after.mesh.triangles) < 3000

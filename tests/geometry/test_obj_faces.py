@@ -124,13 +124,17 @@ READ: dict[str, tuple[str, list[list[int]]]] = {
     "a sign": (V + "f +1 2 3\n", [[1, 2, 3]]),
     "a quad": (V + "f 1 2 3 4\n", [[1, 2, 3], [1, 3, 4]]),
     "six corners after three with uv": (
-        V + VT + "f 1/1 2/2 3/3\nf 1 2 3 4 5 2\n",
-        [[1, 2, 3], [1, 2, 3], [1, 3, 4], [1, 4, 5], [1, 5, 2]],
+        V + VT + "f 1/1 2/2 3/3\nf 1 2 2 3 4 4\n",
+        [[1, 2, 3], [1, 2, 2], [1, 2, 3], [1, 3, 4], [1, 4, 4]],
     ),
     "a line that goes on": (V + "f 1 2 \\\n3\n", [[1, 2, 3]]),
     "CR LF": ((V + "f 1 2 3\n").replace("\n", "\r\n"), [[1, 2, 3]]),
     "CR": ((V + "f 1 2 3\n").replace("\n", "\r"), [[1, 2, 3]]),
-    "colours of some": (V.replace("v 1 1 0", "v 1 1 0 .5 .5 .5") + "f 1 2 3\n", [[1, 2, 3]]),
+    "a weight of one": (V.replace("v 1 1 0", "v 1 1 0 1") + "f 1 2 3\n", [[1, 2, 3]]),
+    "two spaces behind v": (V.replace("v 1 1 0", "v  1 1 0") + "f 1 2 3\n", [[1, 2, 3]]),
+    "a space that isn't seen": (V.replace("v 1 1 0", "v\u00a01 1 0") + "f 1 2 3\n", [[1, 2, 3]]),
+    "a mark in the middle": (V.replace("v 1 1 0", "\ufeffv 1 1 0") + "f 1 2 3\n", [[1, 2, 3]]),
+    "faces as before 3.0": (V + "fo 1 2 3\n", [[1, 2, 3]]),
     "no end of the last line": (V + "f 1 2 3", [[1, 2, 3]]),
 }
 

@@ -14,11 +14,15 @@ PNG_COLOR_TYPES = {1: 0, 2: 4, 3: 2, 4: 6}
 
 
 def png(
-    codes: Codes, bits: int = 8, palette: Codes | None = None, stream: bytes | None = None
+    codes: Codes,
+    bits: int = 8,
+    palette: Codes | None = None,
+    stream: bytes | None = None,
+    more: dict[str, bytes] | None = None,
 ) -> bytes:
     """A PNG of codes (H, W, channels), 8 or 16 bits each; with a palette (n, 3) the codes (H, W, 1) are its entries.
 
-    With another stream than the compressed codes it only pretends to hold them.
+    With another stream than the compressed codes it only pretends to hold them. ``more``: chunks before them.
     """
     height, width, channels = codes.shape
     rows = codes.astype(">u2" if bits == 16 else "u1").tobytes()
@@ -27,6 +31,7 @@ def png(
     data = b"".join(b"\0" + rows[i : i + stride] for i in range(0, len(rows), stride))
     color_type = PNG_COLOR_TYPES[channels] if palette is None else 3
     chunks = [(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, color_type, 0, 0, 0))]
+    chunks += [(name.encode(), content) for name, content in (more or {}).items()]
     if palette is not None:
         chunks.append((b"PLTE", palette.astype("u1").tobytes()))
     chunks += [(b"IDAT", zlib.compress(data) if stream is None else stream), (b"IEND", b"")]
@@ -78,8 +83,16 @@ def _scanline(row: NDArray[np.uint8]) -> bytes:
 EXR_TYPES = {np.dtype(np.uint32): 0, np.dtype(np.float16): 1, np.dtype(np.float32): 2}
 
 
-def exr(channels: dict[str, NDArray[np.generic]], shift: tuple[int, int] = (0, 0)) -> bytes:
-    """An OpenEXR file of planes (H, W), not compressed; its data window is moved by shift from its display window."""
+def exr(
+    channels: dict[str, NDArray[np.generic]],
+    shift: tuple[int, int] = (0, 0),
+    shown: tuple[int, int] | None = None,
+    chromaticities: tuple[float, ...] | None = None,
+) -> bytes:
+    """An OpenEXR file of planes (H, W), not compressed; its data window is moved by shift from its display window.
+
+    ``shown``: width and height of the display window; those of the planes if not given
+    """
     channels = dict(sorted(channels.items()))
     height, width = next(iter(channels.values())).shape
     x, y = shift
@@ -87,7 +100,8 @@ def exr(channels: dict[str, NDArray[np.generic]], shift: tuple[int, int] = (0, 0
         name.encode() + b"\0" + struct.pack("<iB3xii", EXR_TYPES[plane.dtype], 0, 1, 1)
         for name, plane in channels.items()
     )
-    display = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    wide, high = shown or (width, height)
+    display = struct.pack("<4i", 0, 0, wide - 1, high - 1)
     data = struct.pack("<4i", x, y, x + width - 1, y + height - 1)
     one = struct.pack("<f", 1)
     attributes = [
@@ -100,6 +114,9 @@ def exr(channels: dict[str, NDArray[np.generic]], shift: tuple[int, int] = (0, 0
         ("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
         ("screenWindowWidth", "float", one),
     ]
+    if chromaticities is not None:
+        listed = struct.pack("<8f", *chromaticities)
+        attributes.append(("chromaticities", "chromaticities", listed))
     head = struct.pack("<II", 20000630, 2)
     for name, kind, content in attributes:
         head += f"{name}\0{kind}\0".encode() + struct.pack("<i", len(content)) + content

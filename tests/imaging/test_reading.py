@@ -225,7 +225,7 @@ def test_exr_channels_are_found_by_their_names(read: Read) -> None:
     [
         (("p", "q", "s"), "it has the channels p, q, s, not R, G and B, or Y"),
         (("R", "G"), "it has the channels R, G, not"),
-        (("left.R", "left.G", "left.B"), "left.R, left.G, left.B, not"),
+        (("left.R", "left.G"), "left.R, left.G, not"),
         (("Y", "RY", "BY"), "not R, G and B, or Y"),
     ],
 )
@@ -236,17 +236,10 @@ def test_exr_without_colours_tells_its_channels(
     assert told in refusal("a.exr", by_hand.exr(dict.fromkeys(names, plane)))
 
 
-def test_exr_of_whole_numbers_or_beside_its_window_is_refused(
-    refusal: Callable[[str, bytes], str],
-) -> None:
+def test_exr_of_whole_numbers_is_refused(refusal: Callable[[str, bytes], str]) -> None:
     plane = np.ones((5, 9), np.uint32)
     told = refusal("a.exr", by_hand.exr(dict.fromkeys("RGB", plane)))
     assert "its values are uint, not half or float" in told
-    planes = dict.fromkeys("RGB", plane.astype(np.float32))
-    for shift in ((1, 0), (0, -2)):
-        assert "its data window isn't its display window" in refusal(
-            "a.exr", by_hand.exr(planes, shift)
-        )
 
 
 def mantissas_and_exponents(width: int = 64) -> NDArray[np.integer]:
@@ -301,7 +294,8 @@ def test_hdr_that_runs_another_way_is_refused(
 
 
 def test_hdr_in_other_primaries_is_refused(refusal: Callable[[str, bytes], str]) -> None:
-    refusal("a.hdr", by_hand.radiance(mantissas_and_exponents(), kind="32-bit_rle_xyze"))
+    told = refusal("a.hdr", by_hand.radiance(mantissas_and_exponents(), kind="32-bit_rle_xyze"))
+    assert "its colours are XYZ (FORMAT=32-bit_rle_xyze); convert it to RGB" in told
 
 
 # ---------------------------------------------------------------- what can't be read
@@ -347,6 +341,7 @@ def with_wrong_bytes(content: bytes) -> Iterator[bytes]:
         yield bytes(broken)
 
 
+@pytest.mark.filterwarnings("ignore::course.errors.CourseWarning")
 @pytest.mark.parametrize("name", good_files())
 def test_a_file_with_wrong_bytes_is_read_or_refused_without_a_word_elsewhere(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], name: str
@@ -402,7 +397,7 @@ def test_a_missing_file_or_a_folder_is_told(tmp_path: Path, name: str) -> None:
         read_picture(path)
 
 
-@pytest.mark.parametrize("value", [-1e-7, -1, math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("value", [math.nan, -math.inf])
 @pytest.mark.parametrize("dtype", [np.float32, np.float16])
 def test_a_value_that_light_cannot_have_is_told_with_its_place(
     refusal: Callable[[str, bytes], str], value: float, dtype: type
@@ -410,7 +405,7 @@ def test_a_value_that_light_cannot_have_is_told_with_its_place(
     picture = np.ones((5, 9, 3), dtype)
     picture[3, 7, 1] = picture[4, 0, 0] = value
     told = refusal("a.exr", by_hand.exr_rgb(picture))
-    assert told == "the pixel in column 7, row 3 is negative or not finite"
+    assert told.startswith("the pixel in column 7, row 3 is not a number, or less than any: mend")
 
 
 def test_a_png_header_that_is_too_long_is_refused_in_silence(

@@ -135,6 +135,12 @@ def test_a_spot_light_that_shines_elsewhere_is_told(make_scene: MakeScene) -> No
         {"objects": [FLOOR], "lights": [UP, {"type": "ambient", "radiance": 1}]},
         {"objects": [FLOOR], "lights": [UP], "materials": {"grey": {"mirror": 0.5}}},
         {"objects": [FLOOR], "lights": [UP], "materials": {"grey": {"emission": 0.5}}},
+        {"objects": [FLOOR], "lights": [UP], "materials": {"grey": {"unlit": 0.5}}},
+        {"objects": [BALL], "materials": {"grey": {"unlit": 1}}}
+        | {"lights": [{"type": "ambient", "radiance": 1}]},
+        {"objects": [BOX], "materials": {"grey": {"unlit": 1}}, "camera": INSIDE},
+        {"objects": [FLOOR, HIGH | {"material": "glow"}], "integrator": {"type": "path"}}
+        | {"materials": {"grey": {}, "glow": {"unlit": 3}}},
         {"objects": [FLOOR, ABOVE], "lights": [UP], "integrator": {"type": "path"}},
         {"objects": [BOX], "lights": [POINT | {"position": [0.5, 0.5, 0]}], "camera": INSIDE},
         {"objects": [BELOW, BOX], "lights": [POINT | {"position": [0, 0, 0]}, POINT]},

@@ -25,6 +25,7 @@ from course.grading.classes.submitted import read_one
 from course.grading.references import read_references
 from course.inputs import Bound
 from course.radiosity.viewing import load_solution
+from tests.geometry.gltf_files import SQUARE, Writer
 from tests.imaging import picture_files
 
 MODULES = ("motion_blur", "glossy")
@@ -182,6 +183,61 @@ def _trimesh(suffix: str) -> bytes:
     return made if isinstance(made, bytes) else made.encode()
 
 
+def _moved_glb() -> bytes:
+    """A square of whole numbers with morph targets, a skin, and instances beside it."""
+    writer = Writer()
+    corners = writer.primitive["attributes"]
+    corners["POSITION"] = writer.add((SQUARE * 100).astype("i1"), normalized=True)
+    corners["JOINTS_0"] = writer.add(np.array([(0, 1, 0, 0)] * 4, "u1"))
+    corners["WEIGHTS_0"] = writer.add(np.array([(99, 156, 0, 0)] * 4, "u1"), normalized=True)
+    target = writer.add(np.array([(0, 0, 2)] * 4, "<f4"))
+    values = {"bufferView": writer.view(np.ones((1, 3), "<f4"))}
+    where = {"bufferView": writer.view(np.array([2], "<u2")), "componentType": 5123}
+    writer.header["accessors"][target]["sparse"] = {"count": 1, "indices": where, "values": values}
+    writer.primitive["targets"] = [{"POSITION": target}]
+    writer.header["meshes"][0]["weights"] = [0.5]
+    writer.header["meshes"].append({"primitives": [{"attributes": {"POSITION": 1}, "mode": 5}]})
+    places = {"TRANSLATION": writer.add(np.array([(3, 0, 0), (6, 0, 0)], "<f4"))}
+    writer.header["skins"] = [{"joints": [1, 2]}]
+    writer.header["nodes"] = [
+        {"mesh": 0, "skin": 0, "children": [1, 3]},
+        {"translation": [0, 1, 0], "children": [2]},
+        {"rotation": [0, 0, 0.6, 0.8], "scale": [1, 2, 1]},
+        {"mesh": 1, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": places}}},
+    ]
+    return writer.glb()
+
+
+GROUPS = """s 1
+v 0 0 0
+v 3 0 0
+v 3 3 0
+v 2 3 0
+v 2 1 0
+v 1 1 0
+v 1 3 0
+v 0 3 0
+usemtl wood
+f 1 2 3 4 5 6 7 8
+s off
+f 8 7 6 5 4 3 2 1
+usemtl tin
+f 3 4 5
+f 1 2 8 7
+"""
+
+SPACED_STL = """solid a plate
+facet normal 0 0 1
+ outer loop
+  vertex 0 0 0
+  vertex 1 0 0
+  vertex 1 1 0
+ end loop
+end facet
+end solid a plate
+"""
+
+
 # ---------------------------------------------------------------- pictures
 
 
@@ -194,6 +250,27 @@ def _jpeg() -> bytes:
 
     file = io.BytesIO()
     Image.fromarray(_codes(3).astype(np.uint8)).save(file, "JPEG")
+    return file.getvalue()
+
+
+def _layers() -> bytes:
+    planes = {f"a.b.{name}": np.ones((5, 9), np.float16) for name in "RGB"}
+    primaries = (0.68, 0.32, 0.265, 0.69, 0.15, 0.06, 0.3127, 0.329)
+    return picture_files.exr(planes, (2, 1), (12, 7), primaries)
+
+
+_CODED = {"gAMA": struct.pack(">I", 55_556), "cICP": bytes((12, 13, 0, 1))}
+
+
+def _webp() -> bytes:
+    from PIL import Image, ImageCms
+
+    exif = Image.Exif()
+    exif[0x0112] = 6
+    profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+    file = io.BytesIO()
+    image = Image.fromarray(_codes(3).astype(np.uint8))
+    image.save(file, "WEBP", lossless=True, exif=exif, icc_profile=profile)
     return file.getvalue()
 
 
@@ -346,11 +423,17 @@ def file_kinds() -> list[Kind]:
         mesh("binary.stl", _trimesh("stl")),
         mesh("text.stl", _trimesh("stl_ascii")),
         mesh("mesh.glb", _trimesh("glb")),
+        mesh("groups.obj", GROUPS.encode()),
+        mesh("spaced.stl", SPACED_STL.encode()),
+        mesh("moved.glb", _moved_glb()),
         png("8.png", picture_files.png(_codes(3))),
         png("16.png", picture_files.png(_codes(3, 16), 16)),
         png("palette.png", picture_files.png(_codes(1) % 4, palette=palette)),
         picture("photo.jpg", _jpeg()),
         picture("sky.exr", picture_files.exr_rgb(np.ones((5, 9, 3), np.float32))),
+        picture("layers.exr", _layers()),
+        png("coded.png", picture_files.png(_codes(3), more=_CODED)),
+        picture("turned.webp", _webp()),
         picture("sky.hdr", picture_files.radiance(mantissas)),
         picture("flat.hdr", picture_files.radiance(mantissas, run_lengths=False)),
         Kind("solution.npz", _solution(), load_solution, _zip_inside),

@@ -259,8 +259,8 @@ def shuffled(index: Words, order: Words) -> Words:
 def owen_scrambled(words: Words, seeds: Words) -> Words:
     """Nested uniform scramble: each digit is flipped at random, alike for words with equal digits before it.
 
-    The hash of Laine & Karras (2011), with Burley's constants (2020). It reverses the words, so that additions and
-    multiplications carry only from earlier digits to later ones.
+    The hash of Laine & Karras (2011), with Vegdahl's constants (2021). It reverses the words, as Burley (2020) does, so
+    that additions and multiplications carry only from earlier digits to later ones.
 
     Parameters
     ----------

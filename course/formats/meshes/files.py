@@ -4,25 +4,42 @@ A mesh leaves `read_mesh` checked: finite, every index in range, one triangle or
 """
 
 import warnings
+from collections.abc import Callable
 from pathlib import Path
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from course.atomic import replacing
+from course.core.types import Floats64
 from course.errors import CourseWarning, GeometryError
-from course.formats.meshes.glb import parse_glb
+from course.formats.meshes.beside import Beside
+from course.formats.meshes.gltf import parse_glb, parse_gltf
+from course.formats.meshes.named import Named
 from course.formats.meshes.obj import parse_obj
-from course.formats.meshes.parts import Part, parse_stl, same
+from course.formats.meshes.parts import Part, same
 from course.formats.meshes.ply import parse_ply
-from course.formats.meshes.smooth_normals import area_normals, edges_and_faces, smooth_normals, unit
-from course.formats.meshes.transforms import apply
+from course.formats.meshes.smooth_normals import (
+    angle_normals,
+    area_normals,
+    edges_and_faces,
+    smooth_normals,
+    unit,
+)
+from course.formats.meshes.stl import parse_stl
+from course.formats.meshes.transforms import apply_all
 from course.inputs import LARGEST_DATA, Bound, read_input, shown
 from course.shapes.grid import join
 from course.shapes.mesh import Mesh
 
-FORMATS = {".ply": parse_ply, ".obj": parse_obj, ".stl": parse_stl, ".glb": parse_glb}
+FORMATS: Final[dict[str, Callable[[bytes, Beside], list[Part]]]] = {
+    ".ply": lambda data, _: parse_ply(data),
+    ".obj": lambda data, _: parse_obj(data),
+    ".stl": lambda data, _: parse_stl(data),
+    ".glb": parse_glb,
+    ".gltf": parse_gltf,
+}
 
 # Beyond this, squares of distances overflow float64; no unit makes a scene that large.
 FARTHEST = 1e150
@@ -47,21 +64,28 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
     """Read a mesh file; several geometries in it become one mesh, in the file's own frame.
 
     Normals and uv are the file's where it has them. Without normals, triangles that share a vertex
-    are smooth; vertices that only lie at the same place, as in every STL file, are smooth up to a
-    crease of 40 degrees (`smooth_normals`), unless faces weigh by their areas (`area_normals`).
+    are smooth, in an OBJ file with smoothing groups within these, and in a GLB file nothing is; vertices that only lie
+    at the same place, as in every STL file, are smooth up to a crease of 40 degrees (`smooth_normals`), unless faces
+    weigh by their areas (`area_normals`).
     Triangles without area are let through. Where the file has normals they say which side is out:
     triangles that are wound the other way are turned, and a `CourseWarning` says how many. An STL
-    file's normals are its facets'; where they don't lie along these, they say nothing.
+    file's normals are its facets'; where they don't lie along these, they say nothing. A `CourseWarning` each tells
+    what of the file is left out, and faces that cross themselves or have no area.
     Raises GeometryError, naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no
-    triangles, an index out of range, a vertex or a normal that is not finite; in a PLY or OBJ file a face of fewer than
-    three corners. Of text the line is told.
+    triangles, an index out of range, a vertex or a normal that is not finite and that a face has; in a PLY or OBJ file
+    a face of fewer than three corners. Of text the line is told.
 
     Parameters
     ----------
-    path : ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
+    path : ends in .ply, .obj, .stl, .glb or .gltf, in capitals or not. No other file is read.
     weights : "angle" or "area", by what faces count in normals that the file doesn't have
     bound : the most bytes that the file may have
     """
+    return read_named_mesh(path, weights, bound).mesh
+
+
+def read_named_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> Named:
+    """As `read_mesh`, with the names of materials that OBJ and GLB files give to faces."""
     path = Path(path)
     parse = FORMATS.get(path.suffix.lower())
     if parse is None:
@@ -77,13 +101,17 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
         # NumPy before 2.3 only warns of text it can't read to the end, and goes on without it.
         warnings.filterwarnings("error", message="string or file could not be read")
         try:
-            parts = parse(data)
+            parts = parse(data, Beside(path.parent, bound))
+        except GeometryError:
+            raise
         except MemoryError as error:
             raise GeometryError(f"{file}: too large for this computer's memory") from error
         except Exception as error:
             raise GeometryError(
                 f"{file}: not a {path.suffix[1:].upper()} file that can be read: {_reason(error)}"
             ) from error
+    for note in dict.fromkeys(note for part in parts for note in part.notes):
+        warnings.warn(f"{file}: {note}", CourseWarning, stacklevel=2)
     if not parts:
         raise GeometryError(f"{file}: no triangles")
     meshes = []
@@ -91,11 +119,30 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
         name = file if len(parts) == 1 else f"{file}: geometry {number}"
         mesh = _checked(name, part, weights)
         try:
-            meshes.append(apply(mesh, part.transform))
+            moved = (part.places != np.eye(4)).any()
+            meshes.append(apply_all(mesh, part.places) if moved else mesh)
         except ValueError as error:
             raise GeometryError(f"{name}: its node's {error}") from error
+    if not all(mesh.normals is None for mesh in meshes):
+        meshes = [mesh if mesh.normals is not None else _parted(mesh) for mesh in meshes]
     mesh = join(meshes)
-    return _merged(mesh) if path.suffix.lower() == ".stl" else mesh
+    mesh = _merged(mesh) if path.suffix.lower() == ".stl" else mesh
+    return Named(mesh, *_names(parts))
+
+
+def _names(parts: list[Part]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
+    """The names of materials of all parts, and which each triangle has."""
+    numbers = {name: k for k, name in enumerate(dict.fromkeys(n for p in parts for n in p.names))}
+    if not numbers:
+        return (), np.zeros(0, np.intp)
+    found = []
+    for part in parts:
+        if part.name is None:
+            name = np.full(len(part.triangles), numbers.setdefault("", len(numbers)))
+        else:
+            name = np.array([numbers[each] for each in part.names])[part.name]
+        found += [name] * len(part.places)
+    return tuple(numbers), np.concatenate(found).astype(np.intp)
 
 
 def ply_bytes(mesh: Mesh) -> bytes:
@@ -138,11 +185,6 @@ def _checked(name: str, part: Part, weights: Weights) -> Mesh:
     vertices = np.array(part.vertices, np.float64)
     if vertices.ndim != 2 or vertices.shape[1] != 3:
         raise GeometryError(f"{name}: vertices have shape {vertices.shape}: expected (V, 3)")
-    _check_finite(name, "vertex", vertices)
-    far = np.abs(vertices).max(axis=1, initial=0.0) > FARTHEST
-    if far.any():
-        k = int(np.argmax(far))
-        raise GeometryError(f"{name}: vertex {k} is {_row(vertices, k)}: beyond {FARTHEST:g}")
     triangles = part.triangles
     outside = (triangles < 0) | (triangles >= len(vertices))
     if outside.any():
@@ -151,8 +193,10 @@ def _checked(name: str, part: Part, weights: Weights) -> Mesh:
             f"{name}: triangle {t} refers to vertex {triangles[t, corner]}: "
             f"out of range, there are {len(vertices)}, from 0"
         )
+    unusable = _without_odd_rows(name, "vertex", vertices, triangles, FARTHEST)
     if len(vertices) <= np.iinfo(np.int32).max:
         triangles = triangles.astype(np.int32)
+    normals: Floats64 | None
     normals, given = _normals(name, part, len(vertices))
     stored = np.asarray(part.vertices).dtype
     precision = float(np.finfo(stored).eps) if stored.kind == "f" else 0.0
@@ -162,10 +206,45 @@ def _checked(name: str, part: Part, weights: Weights) -> Mesh:
     elif part.facets is not None:
         facets = unit(np.nan_to_num(np.array(part.facets, np.float64), posinf=0.0, neginf=0.0))
         triangles = _outwards(name, vertices, triangles, facets, precision, MOSTLY)
-    if not given.all():
+    if part.flat:
+        normals = None
+    elif not given.all():
+        normals = np.where(given, normals, _computed(part, vertices, triangles, weights))
+    mesh = Mesh(vertices, triangles, normals, _uv(name, part, len(vertices)))
+    return _used(mesh) if unusable else mesh
+
+
+def _computed(
+    part: Part, vertices: Floats64, triangles: NDArray[np.integer], weights: Weights
+) -> Floats64:
+    """The normals (V, 3) that the file doesn't have."""
+    if part.shared is None:
         compute = area_normals if weights == "area" else smooth_normals
-        normals = np.where(given, normals, compute(vertices, triangles))
-    return Mesh(vertices, triangles, normals, _uv(name, part, len(vertices)))
+        return compute(vertices, triangles)
+    # Vertices of one normal lie at one place.
+    places = np.zeros((int(part.shared.max(initial=-1)) + 1, 3))
+    places[part.shared] = vertices
+    shared = part.shared[triangles]
+    normals = area_normals(places, shared) if weights == "area" else angle_normals(places, shared)
+    return normals[part.shared]
+
+
+def _parted(mesh: Mesh) -> Mesh:
+    """A flat mesh with a vertex for each corner, and its normal."""
+    corners = mesh.triangles.ravel()
+    vertices = mesh.vertices[corners]
+    triangles = np.arange(len(corners), dtype=mesh.triangles.dtype).reshape(-1, 3)
+    uv = None if mesh.uv is None else mesh.uv[corners]
+    return Mesh(vertices, triangles, angle_normals(vertices, triangles), uv)
+
+
+def _used(mesh: Mesh) -> Mesh:
+    """The mesh without vertices that no triangle has."""
+    used = np.zeros(len(mesh.vertices), bool)
+    used[mesh.triangles] = True
+    number = (np.cumsum(used) - 1).astype(mesh.triangles.dtype)
+    normals, uv = (rows if rows is None else rows[used] for rows in (mesh.normals, mesh.uv))
+    return Mesh(mesh.vertices[used], number[mesh.triangles], normals, uv)
 
 
 def _normals(name: str, part: Part, count: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -175,7 +254,7 @@ def _normals(name: str, part: Part, count: int) -> tuple[NDArray[np.float64], ND
     normals = np.array(part.normals, np.float64)
     if normals.shape != (count, 3):
         raise GeometryError(f"{name}: {len(normals)} normals for {count} vertices")
-    _check_finite(name, "normal", normals)
+    _without_odd_rows(name, "normal", normals, part.triangles)
     return unit(normals), np.asarray(normals.any(axis=1, keepdims=True))
 
 
@@ -222,7 +301,7 @@ def _uv(name: str, part: Part, count: int) -> NDArray[np.float64] | None:
     if uv.ndim != 2 or len(uv) != count or uv.shape[1] < 2:
         raise GeometryError(f"{name}: uv have shape {uv.shape}: expected ({count}, 2)")
     uv = uv[:, :2].copy()
-    _check_finite(name, "uv", uv)
+    _without_odd_rows(name, "uv", uv, part.triangles)
     return uv
 
 
@@ -234,11 +313,26 @@ def _merged(mesh: Mesh) -> Mesh:
     return Mesh(mesh.vertices[first], triangles, mesh.normals[first])
 
 
-def _check_finite(name: str, noun: str, rows: NDArray[np.float64]) -> None:
-    bad = ~np.isfinite(rows).all(axis=1)
-    if bad.any():
-        k = int(np.argmax(bad))
-        raise GeometryError(f"{name}: {noun} {k} is {_row(rows, k)}: expected finite numbers")
+def _without_odd_rows(
+    name: str,
+    noun: str,
+    rows: NDArray[np.float64],
+    triangles: NDArray[np.integer],
+    farthest: float = np.inf,
+) -> bool:
+    """Refuse rows that aren't finite or lie too far away; others become 0. Whether there are any."""
+    finite = np.asarray(np.isfinite(rows).all(axis=1))
+    odd = np.asarray(~finite | (np.abs(rows).max(axis=1, initial=0.0) > farthest))
+    if not odd.any():
+        return False
+    used = np.zeros(len(rows), bool)
+    used[triangles] = True
+    if (odd & used).any():
+        k = int(np.argmax(odd & used))
+        what = f"beyond {farthest:g}" if finite[k] else "expected finite numbers"
+        raise GeometryError(f"{name}: {noun} {k} is {_row(rows, k)}: {what}")
+    rows[odd] = 0.0
+    return True
 
 
 def _row(rows: NDArray[np.float64], k: int) -> str:

@@ -1,4 +1,4 @@
-"""OBJ bytes to a `Part`: v, vt, vn and f; materials, groups, lines and curves are not looked at.
+"""OBJ bytes to a `Part`: v, vt, vn and f, the smoothing groups of s, and the names of usemtl.
 
 The format: Wavefront, "Object Files (.obj)", appendix B1 of the Advanced Visualizer's manual.
 
@@ -8,175 +8,48 @@ have them; tinyobjloader 2.0rc13 takes the next corner's vertex for the normal o
 vertex for 0; meshio 5.3 misreads numbers that count back, and refuses uv of another number than the vertices'.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from course.core.types import Floats64, Indices
-from course.formats.meshes.parts import Part, fans, numbers, real, same, too_few, whole
-
-KINDS = ("v", "vt", "vn")
-"""The fields of a corner v/vt/vn, in their order."""
-
-NOUNS = ("vertex", "uv", "normal")
-
-MOST = 10**20
-"""A number that no file can have so many rows for."""
-
-_DIGITS = str.maketrans("", "", "0123456789")
-
-Corners = tuple[Indices, Indices | None, Indices | None]
-"""Of each corner of all faces the vertex, the uv and the normal, from 0; -1 where it has none, None where none has."""
-
-
-@dataclass(frozen=True)
-class Face:
-    """One face as it is written.
-
-    Attributes
-    ----------
-    line : its number, from 1
-    text : what follows the f
-    so_far : how many vertices, uv and normals stand before it, from which negative numbers count back; None where it
-        has no such number
-    """
-
-    line: int
-    text: str
-    so_far: tuple[int, ...] | None
-
-
-def corners_of(
-    faces: Sequence[Face], there: tuple[int, int, int]
-) -> tuple[NDArray[np.int64], Corners]:
-    """Return how many corners each face has, (N,), and what these refer to.
-
-    Raises ValueError, IndexError naming the line, as `course.formats.meshes.obj.parse_obj` says.
-
-    Parameters
-    ----------
-    faces : at least one
-    there : how many vertices, uv and normals the file has
-    """
-    words = [face.text.split() for face in faces]
-    lengths = np.array([len(each) for each in words], np.int64)
-    if lengths.min() < 3:
-        k = int(np.argmax(lengths < 3))
-        for word in words[k]:
-            _corner(word, faces[k])
-        raise ValueError(f"line {faces[k].line}: {too_few('a face', int(lengths[k]))}")
-    fields = _alike([word for each in words for word in each])
-    if fields is None:
-        rows = [
-            _corner(word, face) for face, each in zip(faces, words, strict=True) for word in each
-        ]
-        fields = np.array(rows, np.float64).T
-        _check_forms(faces, lengths, fields)
-    found = []
-    for noun, given, count in zip(NOUNS, fields, there, strict=True):
-        wrong = (given > count) | (given < 0)
-        if wrong.any():
-            corner = int(np.argmax(wrong))
-            face = int(np.searchsorted(np.cumsum(lengths), corner, side="right"))
-            raise IndexError(_missing(faces[face], noun, float(given[corner]), count))
-        found.append(given.astype(np.intp) - 1)
-    v, vt, vn = found
-    return lengths, (v, vt if (vt >= 0).any() else None, vn if (vn >= 0).any() else None)
-
-
-def _alike(words: list[str]) -> NDArray[np.float64] | None:
-    """(3, M) numbers from 1 of corners that all have one form, 0 for fields they haven't; None where it isn't sure.
-
-    The usual case, found out without a loop: what is left without digits is the same in every corner.
-    """
-    form = words[0].translate(_DIGITS)
-    hollow = "//" in words[0]
-    which = {"": [0], "/": [0, 1], "//": [0, 2] if hollow else [0, 1, 2]}.get(form)
-    text = " ".join(words)
-    if which is None or text.translate(_DIGITS) != " ".join([form] * len(words)):
-        return None
-    # Without digits 1//3 and 1/2/3 are the same.
-    if text.count("//") != hollow * len(words):
-        return None
-    values = numbers(text.replace("/", " "))
-    if len(values) != len(words) * len(which) or values.min() < 1:
-        return None
-    fields = np.zeros((3, len(words)))
-    fields[which] = values.reshape(-1, len(which)).T
-    return fields
-
-
-def _corner(word: str, face: Face) -> list[int]:
-    """v, vt and vn of one corner, from 1; 0 for those it hasn't."""
-    fields = word.split("/")
-    if len(fields) > 3 or not fields[0]:
-        raise ValueError(_no_corner(word, face))
-    found = [0, 0, 0]
-    for k, text in enumerate(fields):
-        if not text:
-            continue
-        try:
-            given = whole(text)
-        except ValueError:
-            raise ValueError(_no_corner(word, face)) from None
-        counted = given
-        if given < 0 and face.so_far is not None:
-            counted = given + face.so_far[k] + 1
-            if counted < 1:
-                raise IndexError(
-                    f"line {face.line}: a face refers to {NOUNS[k]} {given}, but before it there are {face.so_far[k]},"
-                    f" {_back(face.so_far[k])}"
-                )
-        if counted == 0:
-            raise IndexError(
-                f"line {face.line}: a face refers to {NOUNS[k]} 0, but they count from 1,"
-                " or back from -1"
-            )
-        found[k] = min(counted, MOST)
-    return found
-
-
-def _back(count: int) -> str:
-    return f"from -1 back to -{count}" if count else "so that there is none to refer to"
-
-
-def _no_corner(word: str, face: Face) -> str:
-    return (
-        f"line {face.line}: {word[:40]!r} is no corner of a face:"
-        " expected whole numbers, as in 1, 1/2, 1//3 or 1/2/3"
-    )
-
-
-def _missing(face: Face, noun: str, given: float, count: int) -> str:
-    among = f"from 1 to {count}" if count else "so that no face may have one"
-    return (
-        f"line {face.line}: a face refers to {noun} {given:.15g}, but there are {count}, {among}:"
-        " correct the number, or add what is missing"
-    )
-
-
-def _check_forms(
-    faces: Sequence[Face], lengths: NDArray[np.int64], fields: NDArray[np.float64]
-) -> None:
-    """Refuse faces of which some corners have uv or a normal and others haven't."""
-    starts = np.cumsum(lengths) - lengths
-    for noun, given in zip(NOUNS[1:], fields[1:], strict=True):
-        having = np.add.reduceat((given > 0).astype(np.int64), starts)
-        wrong = (having != 0) & (having != lengths)
-        if wrong.any():
-            k = int(np.argmax(wrong))
-            raise ValueError(
-                f"line {faces[k].line}: {having[k]} of the {lengths[k]} corners of a face have a {noun}:"
-                " expected all of them, or none"
-            )
-
+from course.formats.meshes.obj_corners import KINDS, Corners, Face, corners_of
+from course.formats.meshes.parts import (
+    Part,
+    behind,
+    doubtful,
+    numbers,
+    real,
+    same,
+    whole,
+)
+from course.formats.meshes.polygons import cut
+from course.formats.meshes.twofold import one_sided
+from course.inputs import INVISIBLE, text_of
 
 WIDTHS = {"v": 3, "vt": 2, "vn": 3}
 """How many numbers of a row are read; there may be more: colours or a weight behind a place, a third uv."""
 
+Marks = Sequence[tuple[str, int, int]]
+"""What follows a keyword, the number of its line, and how many faces stand before it."""
+
 FORMS = {"v": "x y z", "vt": "u v", "vn": "x y z"}
+
+
+NAMING: Final = frozenset(("o", "g", "mtllib", "mg", "lod", "bevel", "c_interp", "d_interp"))
+"""What gives names, or says how a program is to show what is there; mtllib's colours are those of usemtl's names."""
+
+MARKS: Final = frozenset(("s", "usemtl"))
+"""What holds for the faces that follow."""
+
+OUTLINES: Final = frozenset(("p", "l"))
+
+_CURVES = "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con"
+_OLD_CURVES = "bsp bzp cdc cdp res stech ctech"
+CURVED: Final = frozenset(f"{_CURVES} {_OLD_CURVES}".split(" "))
+"""Statements of free-form curves and surfaces, some of them of the format before 3.0."""
 
 
 @dataclass
@@ -187,48 +60,171 @@ class _Lines:
     ----------
     rows : keyword -> what follows it, by line
     numbers : keyword -> the lines
+    marks : keyword -> what follows it, the number of its line and how many faces stand before it
+    passed : keyword -> the lines of what isn't read
     """
 
     rows: dict[str, list[str]] = field(default_factory=lambda: {kind: [] for kind in KINDS})
     numbers: dict[str, list[int]] = field(default_factory=lambda: {kind: [] for kind in KINDS})
     faces: list[Face] = field(default_factory=list)
+    marks: dict[str, list[tuple[str, int, int]]] = field(
+        default_factory=lambda: {mark: [] for mark in MARKS}
+    )
+    passed: dict[str, list[int]] = field(default_factory=dict)
+
+    def add(self, lines: Iterable[str], first: int) -> None:
+        """Take lines without comments and indents; ``first``: the number of the first of them."""
+        rows, numbers_of = self.rows, self.numbers
+        for number, line in enumerate(lines, start=first):
+            keyword, _, rest = line.partition(" ")
+            if keyword in WIDTHS:
+                rows[keyword].append(rest)
+                numbers_of[keyword].append(number)
+            elif keyword == "f":
+                so_far = tuple(len(rows[kind]) for kind in KINDS) if "-" in rest else None
+                self.faces.append(Face(number, rest, so_far))
+            elif line:
+                self._add_other(line, number)
+
+    def _add_other(self, line: str, number: int) -> None:
+        keyword, *rest = line.lstrip(INVISIBLE).split(None, 1) or [""]
+        text = rest[0] if rest else ""
+        if keyword in MARKS:
+            self.marks[keyword].append((text, number, len(self.faces)))
+        elif keyword in WIDTHS or keyword in ("f", "fo"):
+            # After another space than one, behind what nobody sees, or as the format had faces before 3.0.
+            plain = f"{'f' if keyword == 'fo' else keyword} {text}"
+            if plain != line:
+                self.add([plain], number)
+        elif keyword and keyword not in NAMING:
+            self.passed.setdefault(keyword, []).append(number)
 
 
 def parse_obj(data: bytes) -> list[Part]:
-    """Return the mesh of an OBJ file, its polygons cut into fans: one part, whatever its groups and materials.
+    """Return the mesh of an OBJ file, its polygons cut into triangles: one part, whatever its groups and materials.
 
-    Vertices are parted where faces give them several uv or normals. Corners without uv, in a file where others have it,
-    are at (0, 0); those without a normal have zeros in its place.
+    Vertices are parted where faces give them several uv or normals, and where smoothing groups end. Corners without uv,
+    in a file where others have it, are at (0, 0); those without a normal have zeros in its place.
     Raises ValueError, IndexError naming the line: for a row of too few numbers, or a word that is none; for a face of
-    fewer than three corners, whose corners differ in form, or that refers to what isn't there.
+    fewer than three corners, whose corners differ in form, or that refers to what isn't there; for an s without a
+    number.
     """
     lines = _Lines()
-    for number, line in enumerate(_plain_lines(data.decode("utf-8", "replace")), start=1):
-        keyword, _, rest = line.partition(" ")
-        if keyword in WIDTHS:
-            lines.rows[keyword].append(rest)
-            lines.numbers[keyword].append(number)
-        elif keyword == "f":
-            so_far = tuple(len(lines.rows[kind]) for kind in KINDS) if "-" in rest else None
-            lines.faces.append(Face(number, rest, so_far))
+    lines.add(_plain_lines(text_of(data, "replace")), 1)
     v, vt, vn = (_numbers(kind, lines.rows[kind], lines.numbers[kind]) for kind in KINDS)
+    notes = _passed(lines)
     if not lines.faces:
+        if notes:
+            raise ValueError(f"no triangles: {'; '.join(notes)}")
         return []
     lengths, corners = corners_of(lines.faces, (len(v), len(vt), len(vn)))
-    where = fans(lengths)
-    vertex, at, toward = corners
-    if at is None and toward is None:
-        return [Part(v, vertex[where], None, None, np.eye(4))]
-    first, corner = same(*(each for each in corners if each is not None))
+    face = np.arange(len(lengths))
+    if corners[2] is None and (once := one_sided(lengths, corners[0])) is not None:
+        kept, chosen = once
+        notes += behind(len(lengths) - int(kept.sum()), len(lengths))
+        lengths, face = lengths[kept], np.flatnonzero(kept)
+        corners = corners[0][chosen], None if corners[1] is None else corners[1][chosen], None
+    cuts = cut(lengths, corners[0], v)
+    notes += doubtful([f"line {lines.faces[k].line}: a face" for k in face[cuts.doubtful]])
+    names, name = _named(lines.marks["usemtl"], len(lines.faces))
+    groups = _groups(lines.marks["s"], len(lines.faces))
+    group = None if groups is None else np.repeat(groups[face], lengths)
     return [
-        Part(
-            vertices=v[vertex[first]],
-            triangles=corner[where],
-            normals=_rows_or_zeros(vn, toward, first),
-            uv=_rows_or_zeros(vt, at, first),
-            transform=np.eye(4),
+        replace(
+            _part((v, vt, vn), corners, cuts.where, group),
+            names=names,
+            name=None if name is None else np.repeat(np.array(name)[face], lengths - 2),
+            notes=notes,
         )
     ]
+
+
+def _part(
+    rows: tuple[Floats64, Floats64, Floats64],
+    corners: Corners,
+    where: Indices,
+    group: Indices | None,
+) -> Part:
+    """Vertices and triangles; ``group``: of each corner the smoothing group, None where there are none at all."""
+    (v, vt, vn), (vertex, at, toward) = rows, corners
+    if toward is not None and group is not None:
+        group = np.where(toward >= 0, 0, group)
+    flat = toward is None and group is not None and bool((group < 0).all())
+    group = None if flat else group
+    if at is None and toward is None and group is None:
+        return Part(v, vertex[where], None, None, flat=flat)
+    columns = [each for each in (*corners, group) if each is not None]
+    first, corner = same(*columns)
+    return Part(
+        vertices=v[vertex[first]],
+        triangles=corner[where],
+        normals=_rows_or_zeros(vn, toward, first),
+        uv=_rows_or_zeros(vt, at, first),
+        # A seam of the uv parts no normals.
+        shared=None if group is None else same(vertex[first], group[first])[1],
+        flat=flat,
+    )
+
+
+def _groups(marks: Marks, faces: int) -> Indices | None:
+    """The smoothing group of each face, one of its own where smoothing is off; None where no s is in the file."""
+    if not marks:
+        return None
+    # By the format it is off until it is switched on.
+    groups = -1 - np.arange(faces)
+    for (text, line, start), end in zip(marks, [*(m[2] for m in marks[1:]), faces], strict=True):
+        word = text.strip()
+        try:
+            number = {"off": 0, "on": 1}.get(word.lower())
+            number = whole(word) if number is None else number
+        except ValueError:
+            raise ValueError(f"line {line}: s {word[:40]!r}: expected a number, or off") from None
+        if number:
+            groups[start:end] = min(abs(number), 1 << 62)
+    return groups
+
+
+def _named(marks: Marks, faces: int) -> tuple[tuple[str, ...], list[int] | None]:
+    """Names of materials that faces have, "" for none, and whose number each face has."""
+    if not marks:
+        return (), None
+    numbers: dict[str, int] = {}
+    found: list[int] = []
+    spans = [("", 0, 0), *marks]
+    for (text, _, start), end in zip(spans, [*(m[2] for m in marks), faces], strict=True):
+        if end > start:
+            found += [numbers.setdefault(text.strip(), len(numbers))] * (end - start)
+    return tuple(numbers), found
+
+
+def _passed(lines: _Lines) -> tuple[str, ...]:
+    """What is told of statements that aren't read."""
+    notes = []
+    curved = sorted(CURVED.intersection(lines.passed))
+    if curved:
+        notes.append(
+            f"line {lines.passed[curved[0]][0]}: free-form curves and surfaces ({', '.join(curved)}) are left out;"
+            " export it as polygons"
+        )
+    if outlines := [line for kind in OUTLINES for line in lines.passed.get(kind, ())]:
+        notes.append(
+            f"line {min(outlines)}: points and lines have no surface, and are left out: {len(outlines):,}"
+        )
+    other = {k: at for k, at in lines.passed.items() if k not in CURVED and k not in OUTLINES}
+    if other:
+        word, at = min(other.items(), key=lambda item: item[1][0])
+        more = sum(map(len, other.values())) - 1
+        notes.append(
+            f"line {at[0]}: {word[:40]!r} is no statement of a mesh, and was passed over"
+            + (f", with {more:,} more such lines" if more else "")
+        )
+    longer = next((k for k, row in enumerate(lines.rows["v"]) if row.count(" ") > 3), None)
+    if longer is not None and len(lines.rows["v"][longer].split()) > 4:
+        notes.append(
+            f"line {lines.numbers['v'][longer]}: numbers behind x y z, such as colours of vertices, are left out;"
+            " the object's material says what colour it has"
+        )
+    return tuple(notes)
 
 
 def _rows_or_zeros(rows: Floats64, index: Indices | None, which: Indices) -> Floats64 | None:

@@ -4,20 +4,16 @@ Python's own `float` and `int` read more than numbers as mesh files write them: 
 In a file these are slips, or it is cut up wrongly; and NumPy, which reads the usual file in one go, takes neither.
 """
 
-import logging
-from dataclasses import dataclass
-from io import BytesIO
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.types import Floats64, Indices
+from course.core.types import Floats64
 
 Array = NDArray[Any]
-
-# What trimesh makes of a wrong file it writes to its log, tracebacks too, which Python prints if nobody listens.
-logging.getLogger("trimesh").addHandler(logging.NullHandler())
 
 
 @dataclass(frozen=True)
@@ -30,46 +26,27 @@ class Part:
     triangles : (T, 3) integer
     normals : (V, 3) or None, of any length
     uv : (V, 2) or None, v upwards
-    transform : (4, 4) float64, from the part's frame to the file's
+    places : (K, 4, 4) float64, from the part's frame to the file's: it is there so many times
     facets : (T, 3) or None, the triangles' own normals as the file has them
+    shared : (V,) or None, numbers of normals that the file doesn't have: vertices with the same one have the same
+        normal, whatever lies beside them; None where vertices at one place are smooth up to a crease
+    flat : whether every triangle has a normal of its own, as the file says without one
+    names : of the file's materials
+    name : (T,) integer or None, which of the names each triangle has; None where there are none
+    notes : what is to be told of the part, such as what of the file was passed over
     """
 
     vertices: Array
     triangles: Array
     normals: Array | None
     uv: Array | None
-    transform: NDArray[np.float64]
+    places: NDArray[np.float64] = field(default_factory=lambda: np.eye(4)[None])
     facets: Array | None = None
-
-
-def parse_stl(data: bytes) -> list[Part]:
-    """Return the solids of an STL file, each triangle with vertices of its own."""
-    from trimesh.exchange.stl import load_stl
-
-    return _parts(load_stl(BytesIO(data)))
-
-
-def _parts(parsed: dict[str, Any]) -> list[Part]:
-    """Return the parts of trimesh's keyword arguments for one mesh or for a scene of several."""
-    geometries = parsed.get("geometry", {"": parsed})
-    return [part for g in geometries.values() if (part := part_of(g, np.eye(4))) is not None]
-
-
-def part_of(
-    geometry: dict[str, Any], transform: NDArray[np.float64], uv: Array | None = None
-) -> Part | None:
-    """Return the Part of trimesh's keyword arguments for one mesh, None if it has no faces."""
-    faces = geometry.get("faces")
-    if faces is None or len(faces) == 0:
-        return None
-    return Part(
-        vertices=np.asarray(geometry["vertices"]),
-        triangles=np.asarray(faces, np.int64),
-        normals=geometry.get("vertex_normals"),
-        uv=uv,
-        transform=transform,
-        facets=geometry.get("face_normals"),
-    )
+    shared: Array | None = None
+    flat: bool = False
+    names: tuple[str, ...] = ()
+    name: Array | None = None
+    notes: tuple[str, ...] = ()
 
 
 def real(word: str) -> float:
@@ -124,17 +101,26 @@ def runs(
     return items[np.cumsum(change[:-1], dtype=np.int8).astype(np.bool_)]
 
 
-def fans(lengths: NDArray[np.int64]) -> Indices:
-    """Return where the corners of triangles stand among those of polygons.
+def doubtful(faces: Sequence[str]) -> tuple[str, ...]:
+    """What is told of faces, named by where they stand, that cross themselves or have no area."""
+    if not faces:
+        return ()
+    more = f" and {len(faces) - 1:,} more" if len(faces) > 1 else ""
+    verb = "cross themselves or have" if more else "crosses itself or has"
+    told = (
+        f"{faces[0]}{more} {verb} no area: cut from a first corner, though nobody can tell what is inside; draw such a"
+        " face anew, or as several"
+    )
+    return (told,)
 
-    A polygon 0 1 2 3 becomes 0 1 2 and 0 2 3, in its place.
-    ``lengths``: (N,) corners of each polygon, 3 or more.
-    Returns (T, 3) intp, numbers of corners, which are counted through all polygons.
-    """
-    triangles = lengths - 2
-    first = np.repeat(np.cumsum(lengths) - lengths, triangles)
-    number = np.arange(triangles.sum()) - np.repeat(np.cumsum(triangles) - triangles, triangles)
-    return np.stack([first, first + number + 1, first + number + 2], axis=1).astype(np.intp)
+
+def behind(count: int, of: int) -> tuple[str, ...]:
+    """What is told of faces that stand in the file a second time, from the other side."""
+    told = (
+        f"{count:,} of its {of:,} faces are others seen from behind; without normals one of both sides is enough, and"
+        " these were left out"
+    )
+    return (told,)
 
 
 def too_few(face: str, corners: int) -> str:

@@ -16,7 +16,21 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from course.formats.meshes.parts import Array, Lists, Part, fans, numbers, real, runs, same, too_few
+from course.formats.meshes.parts import (
+    Array,
+    Lists,
+    Part,
+    behind,
+    doubtful,
+    numbers,
+    real,
+    runs,
+    same,
+    too_few,
+)
+from course.formats.meshes.polygons import cut
+from course.formats.meshes.twofold import one_sided
+from course.inputs import text_of, without_marks
 
 _NAMES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
 _OLD = ("char", "uchar", "short", "ushort", "int", "uint", "float", "double")
@@ -34,6 +48,9 @@ WEDGES = "texcoord"
 
 UV = (("texture_u", "texture_v"), ("u", "v"), ("s", "t"))
 """Names that programs use for the uv of a vertex; the format defines none."""
+
+COLORS = ("red", "diffuse_red", "r")
+"""Names of the first property of colours."""
 
 MOST_NAMES = 1000
 """Elements and properties that a header may have; usual ones have ten or twenty."""
@@ -86,13 +103,14 @@ Columns: TypeAlias = dict[str, Column]
 
 
 def parse_ply(data: bytes) -> list[Part]:
-    """Return the mesh of a PLY file, its polygons cut into fans, with uv by vertex or by corner.
+    """Return the mesh of a PLY file, its polygons cut into triangles, with uv by vertex or by corner.
 
     Elements and properties of other names are left out. Faces whose list of uv is empty, while others have uv, are at
     (0, 0) with all corners.
     Raises ValueError for whatever is wrong with the header, a line or the length of the data, and for lists of uv that
     don't fit their faces.
     """
+    data = without_marks(data, "replace")
     order, elements, end = _header(data)
     columns = dict((_text if order == "ascii" else _binary)(elements, data, end))
     vertex, face = columns.get("vertex", {}), columns.get("face", {})
@@ -103,20 +121,35 @@ def parse_ply(data: bytes) -> list[Part]:
             )
         return []
     corners, wedges = _lists(face)
-    where = fans(corners.lengths)
     vertices = _stacked(vertex, tuple("xyz"))
+    vertices = np.zeros((0, 3)) if vertices is None else vertices
+    normals = _stacked(vertex, ("nx", "ny", "nz"))
+    notes = tuple(
+        f"{name} of its vertices and faces, such as colours, is left out; the object's material says what colour it has"
+        for name in COLORS
+        if name in vertex or name in face
+    )[:1]
+    lengths, values = corners.lengths, corners.values.astype(np.int64)
+    numbers_of, chosen = np.arange(len(lengths)), None
+    if normals is None and values.min() >= 0 and (once := one_sided(lengths, values)) is not None:
+        kept, chosen = once
+        notes += behind(len(lengths) - int(kept.sum()), len(lengths))
+        numbers_of, lengths, values = np.flatnonzero(kept), lengths[kept], values[chosen]
+    cuts = cut(lengths, values, vertices)
+    notes += doubtful([f"face {k}" for k in numbers_of[cuts.doubtful]])
     part = Part(
-        vertices=np.zeros((0, 3)) if vertices is None else vertices,
-        triangles=corners.values.astype(np.int64)[where],
-        normals=_stacked(vertex, ("nx", "ny", "nz")),
+        vertices=vertices,
+        triangles=values[cuts.where],
+        normals=normals,
         uv=next((uv for names in UV if (uv := _stacked(vertex, names)) is not None), None),
-        transform=np.eye(4),
+        notes=notes,
     )
     if wedges is None or not wedges.lengths.any():
         return [part]
     uv = np.zeros((corners.lengths.sum(), 2), wedges.values.dtype)
     uv[np.repeat(wedges.lengths > 0, corners.lengths)] = wedges.values.reshape(-1, 2)
-    return [_split_by_corner(part, uv[where.ravel()])]
+    uv = uv if chosen is None else uv[chosen]
+    return [_split_by_corner(part, uv[cuts.where.ravel()])]
 
 
 def _lists(face: Columns) -> tuple[Lists, Lists | None]:
@@ -159,7 +192,7 @@ def _header(data: bytes) -> tuple[str, list[Element], int]:
         raise ValueError(
             f"its header has no line end_header{where} (lines must end in LF or CR LF)"
         )
-    lines = data[: end.start()].decode("ascii", "replace").split("\n")[:-1]
+    lines = text_of(data[: end.start()], "replace").split("\n")[:-1]
     rows = [line.split() for line in lines]
     formats = [" ".join(words[1:2]) for words in rows if words[:1] == ["format"]]
     order = "".join(formats[:1])
@@ -290,7 +323,7 @@ def _check_uv(element: Element, columns: Columns, lines: Sequence[int] = ()) -> 
 
 def _text(elements: list[Element], data: bytes, end: int) -> Iterator[tuple[str, Columns]]:
     """The columns of each element, by its name, of a file in text."""
-    lines = data[end:].decode("ascii", "replace").splitlines()
+    lines = text_of(data[end:], "replace").splitlines()
     first = data.count(b"\n", 0, end) + 1
     filled = [k for k, line in enumerate(lines) if line and not line.isspace()]
     for element in elements:

@@ -41,6 +41,15 @@ def smooth_normals(
     return _filled(normals, own, faces, triangles)
 
 
+def angle_normals(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> NDArray[np.float64]:
+    """As `smooth_normals`, but vertices at one place lend each other nothing."""
+    faces, weights = _faces_and_angles(vertices, triangles)
+    normals = unit(_sums(len(vertices), triangles, faces, weights))
+    return _filled(normals, normals, faces, triangles)
+
+
 def area_normals(
     vertices: NDArray[np.float64], triangles: NDArray[np.integer]
 ) -> NDArray[np.float64]:

@@ -87,32 +87,57 @@ def apply(mesh: Mesh, matrix: Matrix) -> Mesh:
     matrix = np.asarray(matrix, np.float64)
     if matrix.shape != (4, 4):
         raise ValueError(f"matrix has shape {matrix.shape}: expected (4, 4)")
-    if not np.all(np.isfinite(matrix)):
+    return apply_all(mesh, matrix[None])
+
+
+def apply_all(mesh: Mesh, matrices: Matrix) -> Mesh:
+    """Return one mesh of `mesh` transformed by each of the matrices (K, 4, 4), as `apply` does with one."""
+    if not np.all(np.isfinite(matrices)):
         raise ValueError("matrix holds a number that is not finite")
-    if not np.array_equal(matrix[3], [0.0, 0.0, 0.0, 1.0]):
-        raise ValueError(f"matrix ends in {matrix[3].tolist()}: expected [0, 0, 0, 1]")
-    linear = matrix[:3, :3]
+    ends = matrices[:, 3]
+    if (wrong := (ends != [0.0, 0.0, 0.0, 1.0]).any(axis=1)).any():
+        last = ends[np.argmax(wrong)].tolist()
+        raise ValueError(f"matrix ends in {last}: expected [0, 0, 0, 1]")
+    linear = matrices[:, :3, :3]
     sign = np.linalg.slogdet(linear).sign
-    if sign == 0.0:
+    if not sign.all():
         raise ValueError("matrix can't be inverted: it flattens the mesh")
 
     with np.errstate(over="ignore", invalid="ignore"):
-        vertices = _rows_times(mesh.vertices, linear.T) + matrix[:3, 3]
+        vertices = _rows_times(mesh.vertices, np.swapaxes(linear, 1, 2)) + matrices[:, None, :3, 3]
     if not np.all(np.isfinite(vertices)):
         raise ValueError("matrix moves a vertex out of the range of float64")
     normals = None if mesh.normals is None else _transformed_normals(mesh.normals, linear)
-    triangles = mesh.triangles if sign > 0.0 else np.ascontiguousarray(mesh.triangles[:, ::-1])
-    return Mesh(vertices, triangles, normals, mesh.uv)
+    return Mesh(
+        vertices.reshape(-1, 3),
+        _repeated(mesh, sign),
+        None if normals is None else normals.reshape(-1, 3),
+        mesh.uv if mesh.uv is None or len(sign) == 1 else np.tile(mesh.uv, (len(sign), 1)),
+    )
+
+
+def _repeated(mesh: Mesh, signs: NDArray[np.float64]) -> NDArray[np.integer]:
+    """The triangles of so many copies of a mesh, wound the other way round where a sign is negative."""
+    if len(signs) == 1:
+        same = mesh.triangles
+        return same if signs[0] > 0.0 else np.ascontiguousarray(same[:, ::-1])
+    count = len(mesh.vertices)
+    kind = np.int32 if count * len(signs) <= np.iinfo(np.int32).max else np.int64
+    first = np.arange(len(signs), dtype=kind)[:, None, None] * count
+    copies: NDArray[np.integer] = np.add(mesh.triangles, first, dtype=kind)
+    copies[signs < 0.0] = copies[signs < 0.0][:, :, ::-1]
+    return copies.reshape(-1, 3)
 
 
 def _transformed_normals(normals: NDArray[np.float64], linear: Matrix) -> NDArray[np.float64]:
+    """Normals (K, V, 3) under each of the matrices (K, 3, 3)."""
     # The inverse transpose has the direction of the matrix of cofactors, and its sign keeps outward
     # normals outward under a mirror. One factor for all normals is free.
-    scaled = linear / np.max(np.abs(linear))
+    scaled = linear / np.max(np.abs(linear), axis=(1, 2), keepdims=True)
     inverse = np.linalg.inv(scaled)
     if not np.all(np.isfinite(inverse)):
         raise ValueError("matrix can't be inverted: it flattens the mesh")
-    inverse /= np.max(np.abs(inverse))
+    inverse /= np.max(np.abs(inverse), axis=(1, 2), keepdims=True)
     turned = _rows_times(normals, inverse)
     largest = _largest(turned)
     turned = turned / np.where(largest > 0.0, largest, 1.0)
@@ -120,7 +145,8 @@ def _transformed_normals(normals: NDArray[np.float64], linear: Matrix) -> NDArra
     lengths = np.sqrt(x + y + z)
     unit = turned / np.where(lengths > 0.0, lengths, 1.0)
     # By its largest singular value, the longest that the image of a unit vector can be.
-    lengths = lengths * (largest / np.linalg.norm(inverse, 2))
+    longest = np.linalg.norm(inverse, 2, axis=(1, 2))[:, None, None]
+    lengths = lengths * (largest / longest)
     # Where nothing is stretched unevenly, unit vectors stay just that.
     lengths = np.where(np.abs(lengths - 1.0) < ROUNDING, 1.0, np.maximum(lengths, SHORTEST))
     # A scale so uneven that a normal underflows leaves the original direction, which hardly counts.
@@ -128,24 +154,25 @@ def _transformed_normals(normals: NDArray[np.float64], linear: Matrix) -> NDArra
     return np.where(largest > 0.0, unit, before) * lengths
 
 
-def _rows_times(rows: NDArray[np.float64], matrix: Matrix) -> NDArray[np.float64]:
-    """Return rows @ matrix by products and sums of columns.
+def _rows_times(rows: NDArray[np.float64], matrices: Matrix) -> NDArray[np.float64]:
+    """Return rows (V, 3) @ each of the matrices (K, 3, 3), by products and sums of columns: (K, V, 3).
 
     A BLAS may round a row differently depending on where in the array it stands, and two copies of
     one vertex would part.
     """
     x, y, z = _columns(rows)
-    return np.asarray(x * matrix[0] + y * matrix[1] + z * matrix[2])
+    m = matrices[:, :, None, :]
+    return np.asarray(x * m[:, 0] + y * m[:, 1] + z * m[:, 2])
 
 
 def _largest(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The largest absolute value (N, 1) of each row (N, 3), in a tenth of the time of a maximum along the rows."""
+    """The largest absolute value of each row of three, in a tenth of the time of a maximum along the rows."""
     x, y, z = _columns(np.abs(rows))
     return np.maximum(np.maximum(x, y), z)
 
 
 def _columns(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], ...]:
-    return rows[:, 0:1], rows[:, 1:2], rows[:, 2:3]
+    return rows[..., 0:1], rows[..., 1:2], rows[..., 2:3]
 
 
 def _cosine_sine(degrees: float) -> tuple[float, float]:

@@ -121,9 +121,12 @@ def _tone(element: Element, notes: Notes) -> dict[str, Any]:
         if not (0 < key <= 100 and 0 <= burn <= 100):
             raise options.unexpected("a key from 0 to 100 and a percentage, such as 0.18 1")
         saturation = each.child("Saturation", "such as 1").number(0)
-        gamma = each.child("Gamma", "such as 2.2").number(0, above=True)
-        tone = {"key": key, "burn": burn, "saturation": saturation, "gamma": gamma}
-        found = {"tone": tone}
+        tone = {"key": key, "burn": burn, "saturation": saturation}
+        curve = each.child("Gamma", "such as 2.2 or sRGB")
+        if [word.lower() for word in curve.words()] == ["srgb"]:
+            found = {"tone": tone, "encoding": "srgb"}
+        else:
+            found = {"tone": tone | {"gamma": curve.number(0, above=True)}}
     return found
 
 
@@ -190,13 +193,12 @@ def _sampler(element: Element, notes: Notes) -> dict[str, Any]:
     if found is None or count == 1:
         # A grid of one is the middle of the pixel, without any jitter.
         return {"type": "regular", "samples": 1}
+    # The square number that is nearest: of 44 samples that of 7 x 7, not of 6 x 6.
     most = math.isqrt(MOST_SAMPLES)
-    root = min(math.isqrt(count), most)
+    root = min(round(math.sqrt(count)), most)
     if root * root != count:
-        notes.add(
-            found,
-            f"is {count}: no square of a whole number up to {most}, so {root * root} are taken",
-        )
+        grid = f"a grid has as many rows as columns, at most {most}"
+        notes.add(found, f"is {count}: {grid}, so {root * root} are taken")
     return {"type": "jittered", "samples": root * root}
 
 

@@ -60,17 +60,37 @@ def read_materials(
     """
     materials: dict[str, dict[str, Any]] = {}
     bodies: dict[str, Body] = {}
-    for element in scene.child("Materials", "materials for the objects").all("Material"):
+    elements = scene.child("Materials", "materials for the objects").all("Material")
+    typed = any(element.attribute("type") for element in elements)
+    for element in elements:
         number = element.id(materials)
         brdf = brdf_of(element, brdfs)
-        materials[number], bodies[number] = _material(element, notes, brdf, of_surfaces)
+        _pass_over_opaque(element)
+        kind = element.attribute("type") or ("" if typed else _old_type(element, notes))
+        materials[number], bodies[number] = _material(element, kind, notes, brdf, of_surfaces)
     return materials, bodies
 
 
+def _old_type(element: Element, notes: Notes) -> str:
+    """The type of a material in a file in which none has one, as in the homework of 2019."""
+    mirror = element.maybe("MirrorReflectance")
+    if mirror is None or not mirror.many("numbers, such as 0.5").any():
+        return ""
+    notes.add(mirror, "is that of type mirror, as no material of the file has a type")
+    return "mirror"
+
+
+def _pass_over_opaque(element: Element) -> None:
+    """Ask for a Transparency of 0, which is no loss; any other is refused, as nobody asks for it (``refusals``)."""
+    given = [child.text.split() for child in element.children if child.tag == "Transparency"]
+    if all(word.strip("0.") == "" for words in given for word in words):
+        for opaque in element.all("Transparency"):
+            opaque.words()
+
+
 def _material(
-    element: Element, notes: Notes, brdf: Brdf, of_surfaces: bool
+    element: Element, kind: str, notes: Notes, brdf: Brdf, of_surfaces: bool
 ) -> tuple[dict[str, Any], Body]:
-    kind = element.attribute("type")
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
     degamma = element.flag("degamma")

@@ -1,4 +1,4 @@
-"""Read pictures as linear light: PNG and JPEG are decoded from sRGB, EXR and Radiance HDR are linear already.
+"""Read pictures as linear light: codes of PNG, JPEG and others are decoded, EXR and Radiance HDR are linear already.
 
 Pillow reads what has 8 bits a channel, OpenImageIO what has more; each is imported where it is used.
 """
@@ -8,15 +8,20 @@ from __future__ import annotations
 import threading
 import warnings
 from collections.abc import Iterator
-from functools import partial
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, Final
 
 import numpy as np
 
 from course.core.types import Floats32
-from course.errors import SceneError
-from course.formats.pictures.display import srgb_to_linear
+from course.errors import CourseWarning, SceneError
+from course.formats.pictures.icc import in_srgb, is_srgb
+from course.formats.pictures.layers import choose
+from course.formats.pictures.placing import in_display_window, orientation, upright
+from course.formats.pictures.png_colours import Coding, Transfer, coding_of
+from course.formats.pictures.primaries import to_rec709
+from course.formats.pictures.radiance import radiance_primaries
 from course.inputs import LARGEST_DATA, MOST_PIXELS, Bound, opened, shown
 
 if TYPE_CHECKING:
@@ -32,6 +37,14 @@ MAGIC: Final = (b"\x76\x2f\x31\x01", b"#?RADIANCE", b"#?RGBE")
 CODED: Final = ("PNG", "JPEG", "TIFF", "BMP", "GIF", "WEBP", "PPM", "TGA")
 """What Pillow is asked for; of its other formats some start programs, and most are drawings or films."""
 
+FRAMES: Final = ("GIF", "WEBP", "TIFF", "PNG")
+"""Formats that may have several pictures of which each is one to be looked at."""
+
+HALF: Final = 65504.0
+"""The largest number of 16 bits: what is beyond it in a file of such numbers is infinite there."""
+
+_HUGE: Final = float(np.finfo(np.float32).max)
+
 USUAL_FILE: Final = Bound(LARGEST_DATA)
 USUAL_PIXELS: Final = Bound(MOST_PIXELS)
 
@@ -42,40 +55,113 @@ _OPENING = threading.Lock()
 
 
 def read_picture(
-    path: Path, bound: Bound = USUAL_FILE, pixels: Bound = USUAL_PIXELS, codes: bool = False
+    path: Path,
+    bound: Bound = USUAL_FILE,
+    pixels: Bound = USUAL_PIXELS,
+    codes: bool = False,
+    layer: str | None = None,
 ) -> Floats32:
-    """A picture as linear RGB; grey becomes RGB, and alpha is dropped.
+    """A picture as linear RGB of Rec. 709; grey becomes RGB, and alpha is dropped.
 
+    It stands upright as its orientation says, and covers its display window, black where it has no pixels. Primaries,
+    curves and profiles of colours that it names are heeded. Values that are infinite or negative become the largest
+    that there is and 0, which one `CourseWarning` tells with their number.
     On the way it takes little more memory than the picture that is returned and the file's own codes together.
-    Raises SceneError: the file is missing, is no picture or is too large, or holds a value that is negative or not
-    finite.
+    Raises SceneError: the file is missing, is no picture or is too large, has no such layer, or holds a value that is
+    not a number.
     Returns (H, W, 3) float32.
 
     Parameters
     ----------
     bound : the most bytes that the file may have
     pixels : the most pixels that the picture may have; it is refused before they are read
-    codes : true for numbers as the file has them: without sRGB's curve, the largest code of its depth is 1
+    codes : true for numbers as the file has them: without its curve and primaries, the largest code of its depth is 1
+    layer : of an EXR file of several
     """
     with opened(path, "picture", bound, SceneError) as stream:
         try:
-            linear = path.suffix.lower() in LINEAR
-            read = _read_linear if linear else partial(_read_coded, codes=codes)
-            picture = read(stream, path, pixels)
+            if path.suffix.lower() in LINEAR:
+                found = _read_linear(stream, path, pixels, codes, layer)
+            elif layer is not None:
+                raise ValueError(f"it has no layer {layer!r}; only an EXR file has layers")
+            else:
+                found = _read_coded(stream, path, pixels, codes)
         except UnicodeDecodeError as error:  # from a message that quotes the file's own bytes
             raise SceneError(f"{shown(path)}: its header is corrupt") from error
         except Exception as error:
             reason = (str(error) or type(error).__name__).splitlines()[0]
             raise SceneError(f"{shown(path)}: not a picture that can be read: {reason}") from error
+    notes = found.notes + _mend(found, path)
+    if notes:
+        warnings.warn(f"{shown(path)}: {'; '.join(notes)}", CourseWarning, stacklevel=2)
+    return found.pixels
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A picture as it has been read.
+
+    Attributes
+    ----------
+    pixels : (H, W, 3)
+    notes : what is to be told of it
+    white : what its colours can't exceed; infinite where they are light
+    """
+
+    pixels: Floats32
+    notes: list[str] = field(default_factory=list)
+    white: float = np.inf
+
+
+def _mend(found: _Found, path: Path) -> list[str]:
+    """Make values those that light can have, and say of how many pixels; SceneError where some are no numbers."""
+    infinite = negative = bright = 0
+    lowest: tuple[float, int, int] = 0.0, 0, 0
+    picture = found.pixels
+    width = picture.shape[1]
     for rows in _strips(*picture.shape[:2]):
         part = picture[rows]
-        wrong = np.argwhere(~(np.isfinite(part) & (part >= 0)))
-        if len(wrong):
-            y, x = wrong[0][:2]
+        if part.min(initial=0) >= 0 and part.max(initial=0) <= min(found.white, _HUGE):
+            continue
+        nothing = np.argwhere(np.isnan(part) | (part == -np.inf))
+        if len(nothing):
+            y, x = nothing[0][:2]
             raise SceneError(
-                f"{shown(path)}: the pixel in column {x}, row {rows.start + y} is negative or not finite"
+                f"{shown(path)}: the pixel in column {x}, row {y + rows.start} is not a number, or less than any:"
+                " mend it where the picture was made"
             )
-    return picture
+        low = part.min(axis=2)
+        negative += int(np.count_nonzero(low < 0))
+        if low.min() < lowest[0]:
+            y, x = divmod(int(low.argmin()), width)
+            lowest = float(low.min()), x, y + rows.start
+        infinite += int(np.isinf(part).any(axis=2).sum())
+        bright += int(((part > found.white) & ~np.isinf(part)).any(axis=2).sum())
+    notes = []
+    if infinite:
+        largest = max(
+            (float(np.where(np.isinf(part), 0, part).max()) for part in _parts_of(picture)),
+            default=0,
+        )
+        largest = max(largest, HALF)
+        notes.append(f"pixels that are infinite: {infinite:,}, taken for {largest:g}")
+        for part in _parts_of(picture):
+            part[np.isinf(part)] = largest
+    if negative:
+        value, x, y = lowest
+        notes.append(
+            f"pixels that are negative: {negative:,}, down to {value:.3g} in column {x}, row {y}, taken for 0"
+        )
+    if bright:
+        notes.append(f"pixels of colours that sRGB hasn't: {bright:,}, taken for its nearest")
+    if negative or bright:
+        for part in _parts_of(picture):
+            np.clip(part, 0, found.white, out=part)
+    return notes
+
+
+def _parts_of(picture: Floats32) -> Iterator[Floats32]:
+    return (picture[rows] for rows in _strips(*picture.shape[:2]))
 
 
 def _strips(height: int, width: int) -> Iterator[slice]:
@@ -89,20 +175,44 @@ def _check_size(width: int, height: int, pixels: Bound) -> None:
         raise ValueError(f"{width} x {height} are more than {pixels.most:,} pixels{pixels.remedy}")
 
 
-def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> Floats32:
+def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> _Found:
+    notes: list[str] = []
     # Pillow warns of what it can read all the same, such as a damaged date or 90 million pixels.
     with warnings.catch_warnings(action="ignore"), _opened(stream) as image:
         _check_size(image.width, image.height, pixels)
         if image.mode in ("I", "F"):
             raise ValueError("its values have 32 bits; save it with 8 or 16, or as EXR")
+        if image.format in FRAMES and (frames := getattr(image, "n_frames", 1)) > 1:
+            image.seek(0)
+            notes.append(f"it has {frames:,} pictures, and the first is taken")
+        # When Pillow reads the 8 bits of a TIFF file it turns them, and that of PNG may stand behind the pixels.
+        turned = orientation(image) if image.format == "TIFF" else 1
         # Of a corrupt file Pillow only raises an error; OpenImageIO's PNG library would print one as well.
         image.load()
-        if not (image.mode.startswith("I;16") or _is_deep_png(stream)):
-            return _from_codes(image, _table(256, codes))
-    stream.seek(0)
-    with warnings.catch_warnings(action="ignore"), _opened(stream) as again:
-        again.verify()
-    return _from_deep_codes(path, _table(65536, codes))
+        deep = image.mode.startswith("I;16") or _is_deep_png(stream)
+        if image.format != "TIFF" or not deep:
+            turned = orientation(image)
+        # Colours of numbers are none.
+        coding = Coding() if codes else coding_of(stream)
+        profile = None if codes else image.info.get("icc_profile")
+        if not deep:
+            if profile:
+                image, told = in_srgb(image, profile)
+                notes += told
+            picture = _from_codes(image, _table(256, codes, coding.transfer))
+    if deep:
+        stream.seek(0)
+        with warnings.catch_warnings(action="ignore"), _opened(stream) as again:
+            again.verify()
+        if profile and not is_srgb(profile):
+            notes.append(
+                "its ICC profile isn't heeded with 16 bits: its colours are taken for sRGB's"
+            )
+        picture = _from_deep_codes(path, _table(65536, codes, coding.transfer))
+    if coding.matrix is not None:
+        for part in _parts_of(picture):
+            part[:] = part @ coding.matrix.T.astype(np.float32)
+    return _Found(upright(picture, turned), notes, white=1.0)
 
 
 def _opened(stream: BinaryIO) -> Image:
@@ -120,10 +230,10 @@ def _opened(stream: BinaryIO) -> Image:
             Image.MAX_IMAGE_PIXELS = usual
 
 
-def _table(count: int, codes: bool) -> Floats32:
+def _table(count: int, codes: bool, transfer: Transfer) -> Floats32:
     """What each of so many codes means."""
     shares = np.arange(count) / (count - 1)
-    return shares.astype(np.float32) if codes else srgb_to_linear(shares)
+    return shares.astype(np.float32) if codes else transfer(shares)
 
 
 def _from_codes(image: Image, table: Floats32) -> Floats32:
@@ -139,7 +249,7 @@ def _from_codes(image: Image, table: Floats32) -> Floats32:
 def _from_deep_codes(path: Path, table: Floats32) -> Floats32:
     """A picture of 16 bits (H, W, 3) by a table of what its codes mean."""
     file, spec = _open_linear(path)
-    channels = _color_channels(spec.channelnames)
+    channels = (0, 3 if len(spec.channelnames) >= 3 else 1)
     picture = np.empty((spec.height, spec.width, 3), np.float32)
     for rows in _strips(spec.height, spec.width):
         # A tiled picture can't be read by rows.
@@ -169,18 +279,47 @@ def _is_deep_png(stream: BinaryIO) -> bool:
     return start[:8] == b"\x89PNG\r\n\x1a\n" and start[24] == 16
 
 
-def _read_linear(stream: BinaryIO, path: Path, most: Bound) -> Floats32:
+def _read_linear(
+    stream: BinaryIO, path: Path, most: Bound, codes: bool, layer: str | None
+) -> _Found:
     # OpenImageIO would try all its formats one after the other, which takes minutes with a large file.
     if not stream.read(max(map(len, MAGIC))).startswith(MAGIC):
         raise ValueError("it begins neither as EXR nor as HDR")
+    stream.seek(0)
+    primaries = radiance_primaries(stream)
     file, spec = _open_linear(path)
     _check_size(spec.width, spec.height, most)
+    chosen, spec, notes = choose(file, layer)
+    _check_size(spec.width, spec.height, most)
+    _check_size(spec.full_width, spec.full_height, most)
     _check_linear(spec)
-    pixels = file.read_image(0, 0, *_color_channels(spec.channelnames), "float")
+    first, last = min(chosen.channels), max(chosen.channels) + 1
+    pixels = file.read_image(chosen.part, 0, first, last, "float")
     if pixels is None:
         raise ValueError(file.geterror())
-    pixels = np.broadcast_to(pixels, (*pixels.shape[:2], 3))
-    return np.ascontiguousarray(pixels, np.float32)
+    pixels = pixels.reshape(spec.height, spec.width, last - first)
+    wanted = [channel - first for channel in chosen.channels]
+    if wanted != list(range(last - first)):
+        pixels = pixels[..., wanted]
+    pixels = in_display_window(np.broadcast_to(pixels, (*pixels.shape[:2], 3)), spec)
+    picture = np.require(pixels, np.float32, ["C", "W"])
+    given = primaries or spec.getattribute("chromaticities")
+    if given is not None and not codes:
+        try:
+            matrix = to_rec709(given)
+        except (ValueError, TypeError) as error:
+            matrix = None
+            notes = [
+                *notes,
+                f"its chromaticities aren't heeded, and colours taken for sRGB's: {error}",
+            ]
+        if matrix is not None:
+            for part in _parts_of(picture):
+                # An infinite red is one in all channels, and not a difference of two infinite ones.
+                infinite = np.isinf(part).any(axis=2, keepdims=True)
+                turned = np.where(infinite, 0, part) @ matrix.T.astype(np.float32)
+                part[:] = np.where(infinite, np.inf, turned)
+    return _Found(picture, notes)
 
 
 def _open_linear(path: Path) -> tuple[ImageInput, ImageSpec]:
@@ -202,15 +341,3 @@ def _check_linear(spec: ImageSpec) -> None:
         raise ValueError(f"its values are {spec.format}, not half or float")
     if spec.get_int_attribute("Orientation", 1) != 1:
         raise ValueError("its pixels don't run in rows from the upper left corner")
-    shown = (spec.full_x, spec.full_y, spec.full_width, spec.full_height)
-    if (spec.x, spec.y, spec.width, spec.height) != shown:
-        raise ValueError("its data window isn't its display window")
-
-
-def _color_channels(names: tuple[str, ...]) -> tuple[int, int]:
-    """First and last + 1 of the channels that hold red, green and blue, or grey; OpenImageIO has them in that order."""
-    for wanted in ("RGB", "Y"):
-        if set(wanted) <= set(names) and "RY" not in names:
-            first = names.index(wanted[0])
-            return first, first + len(wanted)
-    raise ValueError(f"it has the channels {', '.join(names)}, not R, G and B, or Y")

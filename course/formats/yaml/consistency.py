@@ -179,8 +179,15 @@ def _check_object(thing: d.Object, here: Place, description: d.SceneDescription)
     if thing.material not in description.materials:
         hint = suggest(thing.material, description.materials)
         here.check(False, "material", f"the name of one of the materials; {hint}")
+    named = thing.materials if isinstance(thing, d.MeshFile) else {}
+    for name, material in named.items():
+        if material not in description.materials:
+            hint = suggest(material, description.materials)
+            expected = f"the name of one of the materials; {hint}"
+            here.at("materials").check(False, name, expected)
     if thing.from_behind == "kept":
-        opaque = description.materials[thing.material].dielectric is None
+        used = (description.materials[name] for name in (thing.material, *named.values()))
+        opaque = all(material.dielectric is None for material in used)
         expected = "turned for glass, whose inside is another than its outside"
         here.check(opaque, "from_behind", expected)
         Place(here.document, ("integrator",)).check(
@@ -219,7 +226,13 @@ def _check_object_lights(description: d.SceneDescription, scene: Place) -> None:
             "name",
             f"another name than that of objects[{first}], for lights[{index}] means one of them",
         )
-        material = description.objects[first].material
+        thing = description.objects[first]
+        material = thing.material
+        if isinstance(thing, d.MeshFile) and thing.materials:
+            raise scene.at("objects", first, "materials").error(
+                f"lights[{index}] is this object, and a light has one material: make its faces an object of their own,"
+                " by only"
+            )
         here.check(
             rgb(description.materials[material].emission).any(),
             "object",

@@ -232,6 +232,14 @@ class Facets(Map, frozen=True, kw_only=True):
     ] = False
 
 
+_Layer: TypeAlias = Annotated[
+    Annotated[str, msgspec.Meta(min_length=1)] | None,
+    about(
+        "Which layer of an EXR file, such as ViewLayer.Combined; null for the one without a name, or the only one."
+    ),
+]
+
+
 class TextureDescription(Map, frozen=True, kw_only=True):
     """A picture on a surface, repeated beyond its edges."""
 
@@ -242,6 +250,7 @@ class TextureDescription(Map, frozen=True, kw_only=True):
             min_length=1,
         ),
     ]
+    layer: _Layer = None
     repeat: Annotated[
         tuple[_Times, _Times],
         about(
@@ -269,6 +278,7 @@ class NormalMapDescription(Map, frozen=True, kw_only=True):
             min_length=1,
         ),
     ]
+    layer: _Layer = None
     repeat: Annotated[
         tuple[_Times, _Times],
         about("How often the picture repeats along u and v, as of a texture."),
@@ -303,6 +313,7 @@ class BumpDescription(Map, frozen=True, kw_only=True):
             " without sRGB's curve."
         ),
     ] = None
+    layer: _Layer = None
     repeat: Annotated[
         tuple[_Times, _Times],
         about("How often the picture repeats along u and v, as of a texture."),
@@ -542,9 +553,23 @@ class HeightField(ObjectDescription, frozen=True, kw_only=True, tag="height_fiel
 
 
 class MeshFile(ObjectDescription, frozen=True, kw_only=True, tag="mesh"):
-    """A mesh from a PLY, OBJ, STL or GLB file."""
+    """A mesh from a PLY, OBJ, STL, GLB or glTF file."""
 
     file: Annotated[str, about("Path of the file, relative to the scene file.", min_length=1)]
+    materials: Annotated[
+        dict[str, str],
+        about(
+            "Materials of faces, by the names that the file gives to theirs: those of usemtl in an OBJ file, and of the"
+            " materials of a GLB file. Faces of other names have material."
+        ),
+    ] = msgspec.field(default_factory=dict)
+    only: Annotated[
+        Annotated[tuple[str, ...], msgspec.Meta(min_length=1)] | None,
+        about(
+            "Names of the file's materials whose faces are this object, an empty one for faces without; null for all"
+            " faces."
+        ),
+    ] = None
     normals: Annotated[
         Literal["angle", "area"],
         about(
@@ -757,6 +782,7 @@ class CubeEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="cu
     cross: Annotated[str | None, about("File of a horizontal (4:3) or vertical (3:4) cross.")] = (
         None
     )
+    layer: _Layer = None
     scale: _Scale = 1.0
     lookup: _Lookup = "seamless"
     lights: _Lights = False
@@ -771,6 +797,7 @@ class LatLongEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag=
         str,
         about("File of the picture, twice as wide as high: PNG, JPEG, EXR or HDR.", min_length=1),
     ]
+    layer: _Layer = None
     size: Annotated[
         Annotated[int, msgspec.Meta(ge=1, le=8192)] | None,
         about("Edge of the cube's faces; half the height if null.", "pixel"),
@@ -800,6 +827,7 @@ class BackdropEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag
     image: Annotated[
         str, about("File of the picture, of any proportions: PNG, JPEG, EXR or HDR.", min_length=1)
     ]
+    layer: _Layer = None
     interpolation: Annotated[
         Literal["bilinear", "nearest"],
         about("What is seen between the middles of pixels: a mixture, or the nearest pixel."),

@@ -11,6 +11,7 @@ from course.formats.yaml.consistency import check_consistency
 from course.formats.yaml.description import LimitsDescription, SceneDescription
 from course.formats.yaml.document import Document, KeyPath
 from course.formats.yaml.overriding import Overrides, override
+from course.formats.yaml.parting import parted
 from course.formats.yaml.tree import read_document
 from course.inputs import Bound
 
@@ -32,7 +33,7 @@ class Loaded:
 
 
 def load_description(path: Path, overrides: Overrides | None = None) -> Loaded:
-    """Read a scene file and check all that can be checked without its meshes.
+    """Read a scene file and check all that can be checked without its meshes, but for names of their materials.
 
     Raises SceneError for the first mistake, in one line that names the file, the line, the key path, the value and what
     was expected.
@@ -50,7 +51,8 @@ def load_description(path: Path, overrides: Overrides | None = None) -> Loaded:
         document = override(document, overrides)
     description = convert(document, SceneDescription)
     check_consistency(description, document)
-    return Loaded(description, document, path)
+    bound = bytes_of_files(document)
+    return Loaded(*parted(description, document, path.parent, bound), path)
 
 
 def bytes_of_files(document: Document) -> Bound:
@@ -58,12 +60,18 @@ def bytes_of_files(document: Document) -> Bound:
     return _bound(document, "bytes")
 
 
-def read_named_picture(file: str, path: KeyPath, loaded: Loaded, codes: bool = False) -> Floats32:
+def read_named_picture(
+    file: str, path: KeyPath, loaded: Loaded, codes: bool = False, layer: str | None = None
+) -> Floats32:
     """A picture that a scene names as linear RGB, or codes, (H, W, 3); SceneError by the key that names it."""
     document = loaded.document
     try:
         return read_picture(
-            loaded.path.parent / file, bytes_of_files(document), _bound(document, "pixels"), codes
+            loaded.path.parent / file,
+            bytes_of_files(document),
+            _bound(document, "pixels"),
+            codes,
+            layer,
         )
     except SceneError as error:
         raise document.error(path, str(error)) from error

@@ -23,7 +23,7 @@ import yaml
 from course.effects import CHECKOUT, begin
 from course.errors import SceneError
 from course.formats.yaml.document import LONGEST, Document, Key, Lines, show, spell
-from course.inputs import LARGEST_SCENE, Bound, read_input, shown
+from course.inputs import LARGEST_SCENE, Bound, read_input, shown, text_of
 
 # The square of a number within these is finite and not zero in float64.
 LARGEST = 1e150
@@ -354,11 +354,12 @@ def _near(path: Path) -> str:
 
 def _decode(content: bytes, file: str) -> str:
     try:
-        text = content.decode("utf-8-sig")
+        text = text_of(content)
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise SceneError(
-            f"{file}:{line}: not UTF-8 text: byte {error.start} is 0x{content[error.start]:02x}; save it as UTF-8"
+            f"{file}:{line}: not {error.encoding.upper()} text: byte {error.start} is 0x{content[error.start]:02x};"
+            " save it as UTF-8"
         ) from None
     if found := _NOT_TEXT.search(text):
         line = text.count("\n", 0, found.start()) + 1

@@ -130,12 +130,24 @@ def _read(text: str, cell: int, above: int, found: Cells, depth: int = 0) -> Non
     for node in tree.body:
         line = above + _own_line(code_lines, own_lines, first_line(node))
         lines = _Lines(found, cell, line - first_line(node))
-        original = ast.dump(node)
-        for kept in _listed(lines.visit(node)):
-            if not isinstance(kept, ast.Pass) or kept is node:
-                same = kept is node and ast.dump(kept) == original
-                text_of = _segment(code_lines, node) if same else _unparsed(kept)
-                found.statements.append(Statement(kept, text_of, cell, line))
+        try:
+            found.statements += _statements(node, lines, code_lines, line)
+        except RecursionError:
+            found.tell(cell, line, "is nested too deeply, so it is left out")
+
+
+def _statements(node: ast.stmt, lines: "_Lines", code: list[str], line: int) -> list[Statement]:
+    """What stays of a statement without lines for the shell."""
+    original = ast.dump(node)
+    visited = lines.visit(node)
+    kept = visited if isinstance(visited, list) else [visited]
+    if kept == [node] and ast.dump(node) == original:
+        return [Statement(node, _segment(code, node), lines.cell, line)]
+    return [
+        Statement(one, _unparsed(one), lines.cell, line)
+        for one in kept
+        if not isinstance(one, ast.Pass)
+    ]
 
 
 def _read_magic(
@@ -222,8 +234,8 @@ class _Lines(ast.NodeTransformer):
         name, texts = _magic(node.value)
         if name in ("system", "getoutput"):
             return ast.Pass()
-        if name == "run_line_magic" and len(texts) == 2:
-            magic, text = texts
+        if name in ("run_line_magic", "run_cell_magic") and len(texts) in (2, 3):
+            magic, text = texts[0], texts[-1]
             tree = parsed(re.sub(r"\A(?:-\w+\s+)+", "", text)) if magic in RUNS else None
             if tree is not None:
                 return tree.body or ast.Pass()
@@ -264,10 +276,6 @@ def _own(node: ast.AST) -> Iterator[ast.AST]:
     for child in ast.iter_child_nodes(node):
         if not isinstance(child, ast.stmt | ast.ExceptHandler | ast.match_case):
             yield from _own(child)
-
-
-def _listed(kept: Any) -> list[ast.stmt]:
-    return kept if isinstance(kept, list) else [kept]
 
 
 def _own_line(code: list[str], own: list[str], line: int) -> int:

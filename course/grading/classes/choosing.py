@@ -1,5 +1,6 @@
 """Which files of a submission are its modules: their names say it, and where no name tells, what they define."""
 
+import json
 import re
 from collections.abc import Iterable, Sequence
 
@@ -85,7 +86,7 @@ def _taken(module: str, candidates: list[tuple[Entry, Named]], remarks: list[str
             )
         source = found
     else:
-        source = content_of(entry)
+        source = _exported(entry, content_of(entry), [module], remarks)[module]
         if entry.path.name != f"{module}.py":
             remarks.append(f"{entry.path} was graded as {module}.py")
     others = [other for other, _ in candidates if other is not entry]
@@ -121,6 +122,8 @@ def _taken_by_content(
     # A program goes before a notebook; editors that hide suffixes save it as a text.
     for suffixes in ((NOTEBOOK,),) if written else ((PYTHON, ".txt"), (NOTEBOOK,)):
         files = [entry for entry in entries if entry.path.suffix.lower() in suffixes]
+        # What lies at the top is what most likely is handed in.
+        files.sort(key=lambda entry: len(entry.path.parts))
         by_module: dict[str, list[tuple[Entry, bytes | Notebook]]] = {}
         for entry in files[:MOST_READ]:
             wanted = [module for module in modules if module not in sources]
@@ -142,11 +145,26 @@ def _taken_by_content(
                 assert taken is not None
                 sources[module] = taken
             else:
-                sources[module] = source
+                sources |= _exported(entry, source, [module], remarks)
                 remarks.append(
                     f"{entry.path} was graded as {module}.py, whose functions it defines"
                 )
     return sources
+
+
+def _exported(entry: Entry, content: bytes, modules: Sequence[str], remarks: list[str]) -> _Sources:
+    """A program by its modules; where a notebook was saved as one, without what only a notebook can run."""
+    sources = dict.fromkeys(modules, content)
+    if b"get_ipython()" not in content:
+        return sources
+    cell = {"cell_type": "code", "source": content.decode("utf-8", "replace")}
+    saved = json.dumps({"cells": [cell]}).encode()
+    try:
+        notebook = read_notebook(str(entry.path), saved, modules)
+    except SubmissionError:
+        return sources
+    remarks += [f"{entry.path}, a notebook saved as a program: {told}" for told in notebook.told]
+    return sources | notebook.sources
 
 
 def _defined(

@@ -12,6 +12,7 @@ import json
 import sys
 import traceback
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -97,6 +98,7 @@ def _grade(options: argparse.Namespace, results: Path, secrets: tuple[Path, ...]
     done: list[Result] = []
 
     def write(report: Report) -> None:
+        report = replace(report, remarks=submission.remarks)
         document = gradescope(report) if on_gradescope else prairielearn(report)
         if on_gradescope:
             document["execution_time"] = round(perf_counter() - started, 3)

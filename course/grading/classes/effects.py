@@ -62,8 +62,8 @@ class Effects:
     Attributes
     ----------
     reads : names that are read
-    stores : names of which an item or attribute is set, or a method is called that may change it
-    hands : names that are handed to what may change them
+    stores : names of which an item or attribute is set
+    hands : names that are handed to what may change them, or have a method called that may
     shares : pairs of a name and another whose value it may come to share
     dynamic : whether it makes names that only running it can tell
     sets : whether it calls a package's function with nothing of the notebook's: that may be a setting
@@ -191,7 +191,7 @@ def _call(node: ast.Call, packages: Mapping[str, str], found: Effects) -> None:
         return
     found.hands |= handed
     if isinstance(function, ast.Attribute) and not dotted(function, packages):
-        found.stores |= shared(function.value) - packages.keys()
+        found.hands |= shared(function.value) - packages.keys()
         found.dynamic |= _is_namespace(function.value)
         found.shares |= {(one, other) for one in shared(function.value) for other in handed}
 

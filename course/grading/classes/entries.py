@@ -15,14 +15,18 @@ from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
 from pathlib import Path, PurePosixPath
+from typing import TypeVar
 
 from course.grading.submissions import ANY_SIZE, SubmissionError, readable
 from course.inputs import opened
+from course.texts import words
+
+Found = TypeVar("Found")
 
 LARGEST_ARCHIVE = 50_000_000
 """Bytes of an archive, as it lies on the disk."""
 
-MOST_ENTRIES = 2000
+MOST_ENTRIES = 10_000
 MOST_BYTES = 200_000_000
 """Of all archives of a submission, unpacked."""
 
@@ -40,7 +44,15 @@ _ZIP = (".zip",)
 _TAR = (".tar", ".tar.gz", ".tgz", ".tar.bz2", ".tbz2", ".tar.xz", ".txz")
 _CLOSED = (".rar", ".7z", ".gz", ".bz2", ".xz", ".zst", ".lz", ".z", ".ace", ".arj", ".cab", ".dmg")
 _MAGIC = {b"Rar!": ".rar", b"7z\xbc\xaf": ".7z"}
-_NOBODYS = ("__MACOSX", "__pycache__", "site-packages", "node_modules")
+_NOBODYS = ("__MACOSX", "__pycache__", "site-packages", "dist-packages", "node_modules")
+_ENVIRONMENTS = ("pyvenv.cfg", "conda-meta")
+"""What lies at the top of an environment of Python."""
+
+_INSTALLED = words(
+    "bin compiler_compat conda-meta dlls etc include lib lib64 libs library man pkgs scripts share "
+    "ssl tcl"
+)
+"""Folders of an environment that hold nobody's work."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +97,34 @@ def archive_suffix(name: str) -> str:
 
 def is_nobodys(path: PurePosixPath) -> bool:
     """True if a file is hidden or a program's own, such as a file manager's."""
-    return any(part.startswith(".") or part in _NOBODYS for part in path.parts)
+    return any((part.startswith(".") and part != "..") or part in _NOBODYS for part in path.parts)
+
+
+def own_work(
+    found: list[Found], path_of: Callable[[Found], PurePosixPath], remarks: list[str]
+) -> Iterator[Found]:
+    """What isn't nobody's: without hidden files, and without those of environments of Python, which is told."""
+    paths = [path_of(one) for one in found]
+    tops = {
+        PurePosixPath(*path.parts[: path.parts.index(mark)])
+        for mark in _ENVIRONMENTS
+        for path in paths
+        if mark in path.parts
+    }
+    passed = set[PurePosixPath]()
+    for one, path in zip(found, paths, strict=True):
+        top = next((top for top in path.parents if top in tops), None)
+        below = "" if top is None else path.parts[len(top.parts)].lower()
+        if top is not None and (below in _INSTALLED or below in _ENVIRONMENTS):
+            passed.add(top)
+        elif not is_nobodys(path):
+            yield one
+    told = "what is installed in this environment of Python was passed over"
+    remarks += [f"{top}: {told}" for top in sorted(passed)]
+
+
+def _path(entry: Entry) -> PurePosixPath:
+    return entry.path
 
 
 def folder_entries(folder: Path) -> Iterator[Entry]:
@@ -124,10 +163,8 @@ def unfolded(entries: Iterator[Entry], remarks: list[str]) -> Iterator[Entry]:
 def _unfolded(
     entries: Iterator[Entry], remarks: list[str], budget: Budget, depth: int
 ) -> Iterator[Entry]:
-    for entry in entries:
+    for entry in own_work(list(entries), _path, remarks):
         name = str(entry.path)
-        if is_nobodys(entry.path):
-            continue
         yield entry
         if not archive_suffix(name):
             continue
@@ -138,7 +175,7 @@ def _unfolded(
             content = entry.read(LARGEST_ARCHIVE + 1)
             if len(content) > LARGEST_ARCHIVE:
                 raise too_large(name)
-            inner = archive_entries(name, content, budget)
+            inner = archive_entries(name, content, budget, remarks)
             yield from _unfolded(
                 (Entry(entry.path / one.path, one.read) for one in inner),
                 remarks,
@@ -149,8 +186,8 @@ def _unfolded(
             remarks.append(str(error))
 
 
-def archive_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
-    """Files of an archive.
+def archive_entries(name: str, content: bytes, budget: Budget, remarks: list[str]) -> list[Entry]:
+    """Files of an archive that are somebody's work; ``remarks`` gets what was passed over.
 
     Raises SubmissionError: it is damaged, too large, of a kind that can't be read, or a path in it leads out.
     """
@@ -162,7 +199,7 @@ def archive_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
         )
     kind = "zip" if suffix in _ZIP else "tar"
     try:
-        found = (_zip_entries if kind == "zip" else _tar_entries)(name, content, budget)
+        found = (_zip_entries if kind == "zip" else _tar_entries)(name, content, budget, remarks)
     except SubmissionError:
         raise
     except Exception as error:
@@ -178,20 +215,21 @@ def archive_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
     return found
 
 
-def _zip_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
+def _zip_entries(name: str, content: bytes, budget: Budget, remarks: list[str]) -> list[Entry]:
     archive = zipfile.ZipFile(BytesIO(content))
     found = []
-    for info in archive.infolist():
+    for info in own_work(archive.infolist(), _zip_path, remarks):
         budget.spend(name, info.file_size)
         if not info.is_dir():
             link = (info.external_attr >> 28) == 0xA
-            path, shown = (
-                PurePosixPath(info.filename.replace("\\", "/")),
-                f"{name}: {info.filename!r}",
-            )
+            path, shown = _zip_path(info), f"{name}: {info.filename!r}"
             reader = _refuse(f"{shown} is a link; submit the file itself")
             found.append(Entry(path, reader if link else partial(_unzip, archive, info, shown)))
     return found
+
+
+def _zip_path(info: zipfile.ZipInfo) -> PurePosixPath:
+    return PurePosixPath(info.filename.replace("\\", "/"))
 
 
 def _unzip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, shown: str, limit: int) -> bytes:
@@ -203,7 +241,7 @@ def _unzip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, shown: str, limit: i
         raise SubmissionError(f"{shown} can't be read: {error}") from error
 
 
-def _tar_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
+def _tar_entries(name: str, content: bytes, budget: Budget, remarks: list[str]) -> list[Entry]:
     data = _unpacked(content)
     if len(data) > LARGEST_TAR:
         raise too_large(name)
@@ -211,7 +249,7 @@ def _tar_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
     found = []
     # Everything is in memory, so no size that a header claims makes it read more than that.
     with tarfile.open(fileobj=BytesIO(data), mode="r:") as archive:
-        for member in archive:
+        for member in own_work(archive.getmembers(), _tar_path, remarks):
             budget.spend(name, member.size)
             if member.isdir():
                 continue
@@ -219,8 +257,12 @@ def _tar_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
             if member.isfile() and not member.issparse():
                 piece = data[member.offset_data : member.offset_data + member.size]
                 reader = partial(_beginning, piece)
-            found.append(Entry(PurePosixPath(member.name), reader))
+            found.append(Entry(_tar_path(member), reader))
     return found
+
+
+def _tar_path(member: tarfile.TarInfo) -> PurePosixPath:
+    return PurePosixPath(member.name)
 
 
 def _beginning(content: bytes, limit: int) -> bytes:

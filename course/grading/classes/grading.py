@@ -19,7 +19,7 @@ from course.grading.classes.job import RESULTS, Graded, Job, grade_job, report_f
 from course.grading.classes.keeping import fingerprint, keep, kept
 from course.grading.classes.names import NOT_CERTAIN
 from course.grading.classes.policy import MODIFIED, Mark, Rules, mark
-from course.grading.classes.roster import Listed, Matched, match
+from course.grading.classes.roster import Matched, Roster, match
 from course.grading.classes.settings import INSTRUCTOR, Settings
 from course.grading.classes.similarity import Compared, compare
 from course.grading.classes.submitted import Submission, find_submissions
@@ -72,6 +72,7 @@ class Finished:
     unused : students of the policy who have handed in nothing
     files : tables that were written
     unprotected : why no grade is certain of students whose code nothing kept from doing harm; empty if there are none
+    told : what of the roster was passed over, and what a learning system will pass over
     """
 
     compared: Compared = field(default_factory=Compared)
@@ -79,6 +80,7 @@ class Finished:
     unused: tuple[str, ...] = ()
     files: tuple[Path, ...] = ()
     unprotected: str = ""
+    told: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -156,7 +158,7 @@ def grade_all(
         if report is not None and (runner.trusted or not report.unprotected)
     }
     jobs = [
-        Job(one.student, one.sources, one.trouble, settings, runner.trusted)
+        Job(one.student, one.sources, one.trouble, settings, runner.trusted, one.remarks)
         for one in submissions
         if one.student not in reports
     ]
@@ -202,7 +204,7 @@ def finish(
     reports: Sequence[Report],
     out: Path,
     settings: Settings,
-    terms: tuple[Rules | None, Sequence[Listed] | None],
+    terms: tuple[Rules | None, Roster | None],
     earlier: Mapping[str, Report] = MappingProxyType({}),
 ) -> Finished:
     """Write grades.csv, class.html, lecture.html, and with a roster canvas.csv and moodle.csv.
@@ -215,7 +217,12 @@ def finish(
     terms : policy and roster
     earlier : student -> what an earlier run had found
     """
-    from course.grading.reports.classes import Line, write_class_page, write_grades
+    from course.grading.reports.classes import (
+        Line,
+        doubts_of,
+        write_class_page,
+        write_grades,
+    )
     from course.grading.reports.insight import write_lecture_page
 
     rules, roster = terms
@@ -229,9 +236,9 @@ def finish(
     total = None if rules is None else rules.policy.total
     matched = None
     if roster is not None:
-        matched = match(roster, {one.student: one.claims for one in submissions})
-    told = [report.unprotected for report in reports if report.unprotected]
-    unprotected = f"{told[0]} ({len(told)} of {len(reports)} graded so)" if told else ""
+        matched = match(roster.students, {one.student: one.claims for one in submissions})
+    open_to = [report.unprotected for report in reports if report.unprotected]
+    unprotected = f"{open_to[0]} ({len(open_to)} of {len(reports)} graded so)" if open_to else ""
     grades, page = out / "grades.csv", out / "class.html"
     write_grades(reports, grades, lines, total)
     write_class_page(
@@ -251,10 +258,13 @@ def finish(
         if not one.trouble
     }
     before = NOT_CERTAIN if unprotected else ""
-    tables = _write_for_systems(out, before, scores, total, matched, settings.title)
+    tables = _write_for_systems(out, before, scores, total, matched, roster, settings.title)
     used = {rules.student(one.names)[0] for one in submissions} if rules else set()
     unused = tuple(one for one in rules.policy.students if one not in used) if rules else ()
-    return Finished(compared, matched, unused, (grades, page, *tables), unprotected)
+    told = (
+        () if roster is None else (*roster.told, *doubts_of(roster, settings.title, total or TOTAL))
+    )
+    return Finished(compared, matched, unused, (grades, page, *tables), unprotected, told)
 
 
 def _unusable(submission: Submission, report: Report) -> tuple[str, ...]:
@@ -299,6 +309,7 @@ def _write_for_systems(
     scores: Mapping[str, float],
     total: float | None,
     matched: Matched | None,
+    roster: Roster | None,
     title: str,
 ) -> list[Path]:
     """Write what learning systems import; tables of an earlier run are not left behind."""
@@ -307,11 +318,11 @@ def _write_for_systems(
     for name in SYSTEMS:
         for path in (out / name, out / f"{NOT_CERTAIN}{name}"):
             path.unlink(missing_ok=True)
-    if matched is None:
+    if matched is None or roster is None:
         return []
     of_students = matched.students
     grades = [(of_students[one], score) for one, score in scores.items() if one in of_students]
     tables = {name: out / f"{before}{name}" for name in SYSTEMS}
     for name, path in tables.items():
-        write_gradebook(name, grades, TOTAL if total is None else total, title, path)
+        write_gradebook(name, roster, grades, TOTAL if total is None else total, title, path)
     return [*tables.values()]

@@ -37,6 +37,7 @@ class Job:
     trouble : why there are none
     settings : what to check
     trusted : whether to grade it where its code can't be kept from doing harm, too
+    remarks : what was guessed of the files, and what of them was left out
     """
 
     student: str
@@ -44,6 +45,7 @@ class Job:
     trouble: str
     settings: Settings
     trusted: bool = False
+    remarks: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -80,6 +82,7 @@ def grade_job(job: Job, references: Path | bytes) -> Graded:
                 limits=job.settings.limits,
                 shut_in=sandbox() if job.trusted else protected(),
             )
+    report = replace(report, remarks=job.remarks)
     # Arrays to draw are most of a report's bytes.
     results = tuple(replace(result, figures=()) for result in report.results)
     return Graded(replace(report, results=results), report_files(report))

@@ -27,7 +27,7 @@ _RESULT = [field.name for field in fields(Result) if field.name not in ("figures
 def fingerprint(submission: Submission, settings: Settings, code: str = "") -> str:
     """One line that changes whenever the result may: with submission, seed, version, modules or the grader's code."""
     seconds, sources = settings.submission_seconds, submission.sources
-    parts = [__version__, settings.seed, settings.modules, submission.trouble]
+    parts = [__version__, settings.seed, settings.modules, submission.trouble, submission.remarks]
     parts += [code] if code else []
     parts += [] if seconds is None else [f"{seconds:g} s"]
     files = [(name, hashlib.sha256(sources[name]).hexdigest()) for name in sorted(sources)]

@@ -17,8 +17,6 @@ NOT_CERTAIN = "not_protected_"
 column that it doesn't know, Moodle refuses such a table or asks for a meaning, and any line is a student's: so only the
 name can say it."""
 
-_CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)", re.DOTALL)
-_MOODLE = re.compile(r"_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext)(?:_|$)")
 _COPY = re.compile(r"(?:\s*\(\d{1,3}\)|[-_\s]+\d{1,2}|[-_\s]+(?:copy|kopie|copie|copia))+$", re.I)
 _SEPARATORS = "-_. \t"
 _PLAIN = " -_@+,()'."
@@ -30,45 +28,6 @@ _OUTPUTS = (
     *("grades.csv", "canvas.csv", "moodle.csv", "class.html"),
     *("lecture.html", "references_", "instructor", NOT_CERTAIN),
 )
-
-
-@dataclass(frozen=True)
-class Sent:
-    """The prefix of a learning system before the name of a file or folder, read.
-
-    Attributes
-    ----------
-    name, id : of the student, there
-    file : the rest, the file's own name; empty for a folder
-    remark : what the system says of it besides
-    """
-
-    name: str
-    id: str
-    file: str
-    remark: str = ""
-
-    @property
-    def owner(self) -> str:
-        """A name that tells this student from all others."""
-        return f"{self.name}_{self.id}"
-
-
-def sent(name: str) -> tuple[Sent, ...]:
-    """What a name says that Canvas or Moodle gave a download: nothing if neither gave it.
-
-    The end of the name is the student's own, with Moodle its beginning, too. So a name that can be read in more than
-    one way says nothing that is certain.
-    """
-    found = []
-    if by := _CANVAS.fullmatch(name):
-        late = "Canvas says that it is late" if by["late"] else ""
-        found.append(Sent(by["name"], by["id"], by["file"], late))
-    for by in _MOODLE.finditer(name):
-        if by.start():
-            text = "typed into Moodle" if by["kind"] == "onlinetext" else ""
-            found.append(Sent(name[: by.start()], by["id"], name[by.end() :], text))
-    return tuple(found)
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,10 @@ What is known to show, to measure or to read goes.
 
 import ast
 import sys
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeGuard
 
 from course.grading.classes.cells import Statement
 from course.grading.classes.effects import (
@@ -203,17 +204,35 @@ def _names(node: ast.AST) -> set[str]:
 
 def _packages(statements: Sequence[Statement]) -> dict[str, str]:
     """What names are of packages: by imports, and what only ever comes of what shows something."""
-    nodes = [one.node for one in statements]
-    own = {getattr(node, "name", "") for node in nodes}
-    packages = {} if "display" in own else {"display": "IPython.display"}
-    packages |= imported(nodes)
+    nodes = [inner for one in statements for inner in executed(one.node)]
+    packages = {"display": "IPython.display"} | imported([one.node for one in statements])
+    made = Counter[str]()
     for node in nodes:
-        for one in executed(node):
-            match one:
-                case ast.Assign(targets, value) if _is_shown(value, packages):
-                    for name in set[str]().union(*map(_names, targets)):
-                        packages.setdefault(name, dotted(value, packages) or "IPython")
-    return packages
+        match node:
+            case ast.Assign(targets, value) if _is_shown(value, packages):
+                pass
+            case ast.withitem(value, ast.expr() as target) if _is_shown(value, packages):
+                targets = [target]
+            case _:
+                continue
+        names = [name for target in targets for name in _names(target)]
+        made.update(names)
+        for name in names:
+            packages.setdefault(name, dotted(value, packages))
+    # A name that is something else elsewhere is nothing that is known.
+    bound = Counter(one.id for one in nodes if _is_stored(one))
+    bound.update(one.name for one in nodes if _is_definition(one))
+    return {name: of for name, of in packages.items() if bound[name] <= made[name]}
+
+
+def _is_stored(node: ast.AST) -> TypeGuard[ast.Name]:
+    return isinstance(node, ast.Name) and not isinstance(node.ctx, ast.Load)
+
+
+def _is_definition(
+    node: ast.AST,
+) -> TypeGuard[ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef]:
+    return isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
 
 
 def _is_shown(node: ast.expr, packages: dict[str, str]) -> bool:
@@ -238,7 +257,7 @@ class _Shown(ast.NodeTransformer):
         self.depth = 0
 
     def visit(self, node: ast.AST) -> Any:
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.expr):
+        if _is_definition(node) or isinstance(node, ast.Lambda):
             return node
         self.depth += isinstance(node, ast.stmt)
         node = super().visit(node)
@@ -246,13 +265,24 @@ class _Shown(ast.NodeTransformer):
         return node
 
     def visit_Expr(self, node: ast.Expr) -> ast.stmt:
-        call = node.value
+        call = self.visit(node.value)
+        node.value = call
         if not isinstance(call, ast.Call) or not _is_shown(call.func, self.packages):
             return node
         may = [one for one in arguments(call) if not self._is_idle(one)]
         return ast.Expr(ast.Tuple(may, ast.Load())) if may else ast.Pass()
 
+    def visit_Call(self, node: ast.Call) -> ast.expr:
+        self.generic_visit(node)
+        name = dotted(node.func, self.packages)
+        if name.partition(".")[0] != "tqdm" or not node.args:
+            return node
+        # A bar of progress gives what it is handed.
+        numbers = ast.Call(ast.Name("range", ast.Load()), node.args, [])
+        return numbers if name.endswith("trange") else node.args[0]
+
     def visit_Assign(self, node: ast.Assign) -> ast.stmt:
+        self.generic_visit(node)
         below = self.depth > 1 and _is_shown(node.value, self.packages)
         return ast.Pass() if below and self._is_idle(node.value) else node
 
@@ -273,9 +303,10 @@ class _Shown(ast.NodeTransformer):
 
 def _star(node: ast.stmt) -> str:
     """The package of which a statement imports everything."""
-    match node:
-        case ast.ImportFrom(module, [ast.alias("*")]):
-            return module or "."
+    for one in executed(node):
+        match one:
+            case ast.ImportFrom(module, [ast.alias("*")]):
+                return module or "."
     return ""
 
 

@@ -20,7 +20,7 @@ from course.formats.yaml.document import Document, KeyPath, show
 from course.formats.yaml.suggestions import suggest
 from course.formats.yaml.tree import read_document
 from course.grading.classes.names import same_name
-from course.grading.classes.roster import read_table
+from course.grading.classes.tables import read_table
 from course.grading.report import Report, grouped
 
 MODIFIED = "modified"
@@ -240,10 +240,10 @@ def _zoned(text: str) -> datetime | None:
 
 
 def _read_times(path: Path) -> dict[str, Handed]:
-    columns, rows = read_table(path, "table of times")
-    if not {"student", "submitted"} <= {*columns}:
+    table = read_table(path, "table of times")
+    if not {"student", "submitted"} <= {*table.columns}:
         raise CourseError(f"{path}:1: expected the columns student and submitted")
-    return {row["student"]: _handed(row, f"{path}:{line}") for line, row in rows}
+    return {row["student"]: _handed(row, f"{path}:{line}") for line, row in table.records()}
 
 
 def _handed(row: Mapping[str, str], where: str) -> Handed:

@@ -7,7 +7,7 @@ import msgspec
 from course.atomic import write_text
 from course.errors import CourseError
 from course.grading.classes.policy import Rules, read_policy
-from course.grading.classes.roster import Listed, read_roster
+from course.grading.classes.roster import Roster, read_roster
 from course.grading.worker.limits import Limits
 
 INSTRUCTOR = "instructor"
@@ -32,7 +32,7 @@ class Settings(msgspec.Struct, frozen=True):
     title: str = "Penumbra"
     submission_seconds: float | None = None
 
-    def read(self) -> tuple[Rules | None, list[Listed] | None]:
+    def read(self) -> tuple[Rules | None, Roster | None]:
         """Policy and roster; raises ``CourseError`` where one can't be read or is wrong."""
         return (
             read_policy(Path(self.policy), self.modules) if self.policy else None,

@@ -25,9 +25,9 @@ from course.grading.classes.names import (
     read_name,
     safe_name,
     same_name,
-    sent,
     short_name,
 )
+from course.grading.classes.systems import Sent, sent, sent_together
 from course.grading.submissions import SubmissionError
 from course.modules import COURSE
 from course.texts import clean_line
@@ -52,7 +52,8 @@ class Submission:
     trouble : why it can't be graded; empty if it can
     remarks : what was guessed, and what was left out
     names : by which lists of a learning system or the instructor may know the student
-    number : that a learning system knows the student by; empty where it is none's download
+    number, logins : that a learning system knows the student by; empty where it says none
+    downloaded : whether it is a learning system's download
     """
 
     student: str
@@ -62,14 +63,19 @@ class Submission:
     remarks: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
     number: str = ""
+    logins: tuple[str, ...] = ()
+    downloaded: bool = False
 
     @property
     def claims(self) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
         """What may be the student's number, login and name in a roster.
 
-        In a download only the number is certain: who may change the own name there could take another's login.
+        In a download only what the system itself has given is certain: who may change the own name there could take
+        another's login.
         """
-        return ((self.number,), (), self.names) if self.number else (self.names,) * 3
+        if not self.downloaded:
+            return (self.names,) * 3
+        return ((self.number,), self.logins, self.names)
 
 
 @dataclass
@@ -80,7 +86,8 @@ class _Handed:
     ----------
     owner : the student, as the names say it
     parts : path, and the name of the file in the submission; "" for what is a submission as a whole
-    names, number : as in `Submission`
+    names, number, logins, downloaded : as in `Submission`
+    attempt : of a student's several the latest counts
     """
 
     owner: str
@@ -89,6 +96,20 @@ class _Handed:
     remarks: list[str] = field(default_factory=list)
     names: tuple[str, ...] = ()
     number: str = ""
+    logins: tuple[str, ...] = ()
+    downloaded: bool = False
+    attempt: str = ""
+
+    def join(self, other: "_Handed") -> None:
+        """Take in another part of the same student's; of two tries only the later one counts."""
+        if self.attempt == other.attempt:
+            self.parts += other.parts
+        else:
+            later, earlier = (self, other) if self.attempt > other.attempt else (other, self)
+            listed = ", ".join(path.name for path, _ in earlier.parts)
+            self.remarks.append(f"an earlier try was not graded: {listed}")
+            self.parts, self.attempt = later.parts, later.attempt
+        self.remarks += other.remarks
 
 
 def find_submissions(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> list[Submission]:
@@ -103,13 +124,15 @@ def find_submissions(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> li
     except OSError as error:
         raise CourseError(f"{folder}: can't be read: {error.strerror}") from error
     found: dict[tuple[str, str], _Handed] = {}
+    together = sent_together(folder, paths)
     for path in paths:
-        key, handed = _handed(path, modules)
-        if key in found:
-            found[key].parts += handed.parts
-            found[key].remarks += handed.remarks
-        else:
-            found[key] = handed
+        by = together.get(path)
+        parts = [_handed(path, modules)] if by is None else [_sent(path, one) for one in by]
+        for key, handed in parts:
+            if key in found:
+                found[key].join(handed)
+            else:
+                found[key] = handed
     if not found:
         raise CourseError(f"{folder}: holds no submissions (folders, archives or files)")
     _mark_clashes([*found.values()])
@@ -135,16 +158,11 @@ def _is_file_manager_s(name: str) -> bool:
 
 def _handed(path: Path, modules: tuple[str, ...]) -> tuple[tuple[str, str], _Handed]:
     """The submission at one path, and a key of its student: parts of one submission have the same."""
-    if by := sent(path.name):
+    if by := sent(path.name, path.is_dir()):
         if len(by) > 1:
             told = f"its name can be read as that of {' and of '.join(one.owner for one in by)}"
             return ("none", path.name), _Handed(path.name, [(path, "")], f"{told}: rename it")
-        (one,) = by
-        # A name of digits alone could be another student's number.
-        names = (one.id,) if one.name.isdecimal() else (one.name, one.id)
-        handed = _Handed(one.owner, [(path, one.file)], names=names, number=one.id)
-        handed.remarks += [f"{one.file or path.name}: {one.remark}"] if one.remark else []
-        return ("sent", one.owner), handed
+        return _sent(path, by[0])
     if path.is_dir() or path.is_symlink():
         return ("whole", path.name), _Handed(path.name, [(path, "")], names=(path.name,))
     named = read_name(path.name, modules)
@@ -166,6 +184,14 @@ def _handed(path: Path, modules: tuple[str, ...]) -> tuple[tuple[str, str], _Han
         else "is no folder, archive, .py file or notebook"
     )
     return ("none", path.name), _Handed(path.name, [(path, path.name)], trouble=told)
+
+
+def _sent(path: Path, by: Sent) -> tuple[tuple[str, str], _Handed]:
+    """The same for what a learning system says whose it is."""
+    remarks = [f"{by.file or path.name}: {by.remark}"] if by.remark else []
+    parts, known = [(path, by.file)], (by.names, by.number, by.logins)
+    handed = _Handed(by.owner, parts, "", remarks, *known, downloaded=True, attempt=by.attempt)
+    return ("sent", by.owner), handed
 
 
 def _module_of(path: Path, modules: tuple[str, ...]) -> str:
@@ -249,7 +275,8 @@ def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission
         clean_line(_without_folders(text, handed)) for text in (trouble, *handed.remarks, *remarks)
     )
     names = (student, *handed.names)
-    return Submission(student, paths, sources, trouble, tuple(told), names, handed.number)
+    known = handed.number, handed.logins, handed.downloaded
+    return Submission(student, paths, sources, trouble, tuple(told), names, *known)
 
 
 def _entries(handed: _Handed) -> Iterator[Entry]:

@@ -3,7 +3,7 @@
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from itertools import groupby
@@ -17,7 +17,7 @@ from urllib.parse import quote
 from course.atomic import write_text
 from course.grading.checks.result import Result, Status
 from course.grading.classes.policy import Mark
-from course.grading.classes.roster import Listed, Matched
+from course.grading.classes.roster import Listed, Matched, Roster
 from course.grading.report import FunctionResults, Report, ending, grouped
 from course.grading.reports.formats import finite
 from course.grading.reports.insight import changes, misconceptions, without_name
@@ -59,6 +59,10 @@ SYSTEMS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     },
 }
 """Table of a learning system -> its columns -> columns of a roster that say the same where it has none of that name."""
+
+
+_PASSED_OVER = re.compile(r"\b(?:current|final|override|unposted)\b", re.IGNORECASE)
+"""What headings of Canvas's own totals begin with: `Final Score`, `Override Grade`."""
 
 
 @dataclass(frozen=True)
@@ -121,18 +125,28 @@ def write_grades(
 
 
 def write_gradebook(
-    system: str, grades: Iterable[tuple[Listed, float]], total: float, title: str, path: Path
+    system: str,
+    roster: Roster,
+    grades: Iterable[tuple[Listed, float]],
+    total: float,
+    title: str,
+    path: Path,
 ) -> None:
     """Write what Canvas imports into its gradebook, or Moodle, also as an upload of a grading worksheet.
 
+    A roster that isn't Canvas's goes to Moodle with its own headings and cells, as they came: a worksheet in whatever
+    language with its grades filled in, any other list with a column more.
     Raises OutputError: the file can't be written.
 
     Parameters
     ----------
-    system : of ``SYSTEMS``; the table has its columns, as the roster says them, and one of grades
+    system : of ``SYSTEMS``
     total : points of who has earned all
     title : the assignment as the system calls it, such as "Lens (12345)"; on Canvas a new name makes a new assignment
     """
+    if system == "moodle.csv" and not roster.is_canvas:
+        _write_table(_own_rows(roster, grades, total, title), path)
+        return
     columns = SYSTEMS[system]
     rows = [[*columns, clean(title)]]
     if "Student" in columns:
@@ -144,6 +158,37 @@ def write_gradebook(
             own[name] = own[name] or listed.name
         rows.append([*map(clean, own.values()), _number(grade)])
     _write_table(rows, path)
+
+
+def _own_rows(
+    roster: Roster, grades: Iterable[tuple[Listed, float]], total: float, title: str
+) -> Iterator[list[str]]:
+    """The roster's own table of those who have a grade."""
+    sheet = roster.worksheet
+    yield [*map(clean, roster.columns), *([] if sheet else [clean(title)])]
+    for listed, grade in grades:
+        cells = [*map(clean, listed.cells)]
+        if sheet is None:
+            yield [*cells, _number(grade)]
+            continue
+        number = _number(grade if sheet.most is None else grade * sheet.most / total)
+        cells[sheet.grade] = number.replace(".", ",") if sheet.comma else number
+        yield cells
+
+
+def doubts_of(roster: Roster, title: str, total: float) -> Iterator[str]:
+    """What is told of tables for learning systems: what they pass over, and what was made of the grades."""
+    if _PASSED_OVER.search(title):
+        yield (
+            f"Canvas passes over columns that look like its totals, and may do so with {clean(title)!r}: "
+            "give the assignment another name, and --title that"
+        )
+    sheet = roster.worksheet
+    if sheet is not None and sheet.most is not None and sheet.most != total:
+        yield (
+            f"moodle.csv: the worksheet's highest grade is {sheet.most:g}, "
+            f"so scores out of {total:g} were made ones out of that"
+        )
 
 
 def _number(value: float) -> str:

@@ -43,7 +43,17 @@ ENLARGED = 320
 _NO_ROOM = (
     "what was found is left out, for PrairieLearn takes no more; the next line finds it again"
 )
-_OF_REPORTS = ("student", "version", "seed", "seconds", "score", "points", "of", "trouble")
+_OF_REPORTS = (
+    "student",
+    "version",
+    "seed",
+    "seconds",
+    "score",
+    "points",
+    "of",
+    "trouble",
+    "remarks",
+)
 _OF_RESULTS = (
     *("id", "module", "function", "check", "title", "kind", "status", "points", "of"),
     *("expected", "found", "where", "hint", "example", "mistake", "says", "same_as"),
@@ -193,6 +203,10 @@ def as_xml(report: Report) -> str:
         case = _element("testcase", suite, classname="submission", name="can be graded")
         _element("error", case, type="not graded", message=report.trouble)
         suites.append(suite)
+    if report.remarks:
+        suite = _element("testsuite", name="files", tests=0, failures=0, errors=0, skipped=0)
+        _element("system-out", suite).text = clean("\n".join(report.remarks))
+        suites.append(suite)
     name = ": ".join(filter(None, (f"Penumbra {report.student}", report.unprotected)))
     root = _element("testsuites", name=name, time=finite(report.seconds))
     for key in ("tests", "failures", "errors", "skipped"):
@@ -259,7 +273,7 @@ def _summary(report: Report, more: str) -> str:
     if not report.trouble:
         passed = report.count(Status.PASSED)
         told = f"{passed} of {len(report.results)} checks passed, {more}.{broke(report)}"
-    return _lines(report.unprotected, told)
+    return _lines(report.unprotected, told, *report.remarks)
 
 
 def explained(result: Result) -> str:

@@ -11,9 +11,10 @@ import pytest
 
 from course.grading.classes import entries
 from course.grading.classes.entries import Entry, unfolded
-from course.grading.classes.names import read_name, sent
+from course.grading.classes.names import read_name
 from course.grading.classes.notebooks import read_notebook
 from course.grading.classes.submitted import Submission, find_submissions
+from course.grading.classes.systems import sent
 from course.grading.submissions import SubmissionError
 
 LENS = b"import numpy as np\n\ndef point_on_disk(u):\n    return np.sqrt(u)\n"

@@ -4,7 +4,7 @@ import ast
 import json
 import random
 from collections.abc import Iterator
-from itertools import pairwise
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +13,16 @@ import pytest
 from IPython.core.interactiveshell import InteractiveShell
 from traitlets.config import Config
 
+from benchmarks.mutants.cells import in_cells
+from course.grading.classes.job import Job, grade_job
+from course.grading.classes.keeping import fingerprint
 from course.grading.classes.notebooks import Notebook, _converted, read_notebook
+from course.grading.classes.settings import Settings
 from course.grading.classes.submitted import find_submissions
 from course.grading.grading import grade
 from course.grading.known import known
 from course.grading.references import references
+from course.grading.reports.classes import Line, write_class_page, write_grades
 from course.grading.submissions import SubmissionError
 from course.modules import COURSE
 
@@ -161,6 +166,18 @@ LIKE_JUPYTER = {
     "prompts": (">>> k = 2\n>>> k += 1", "In [3]: j = 2", BLUR.format(factor="k * j")),
     "doctest in a text": ('k = """\n%time x\n!ls\n"""', BLUR.format(factor="len(k)")),
     "a comment over a magic's name": ("#%%time\nk = 3", BLUR.format(factor="k")),
+    "a name of a package that is something else": (
+        "import time\nt = time.time()",
+        "t = [1]",
+        "t.append(4)",
+        "from numpy import add as render\ndef render(t): t.append(5)",
+        "render(t)",
+        BLUR.format(factor="len(t) * t[1]"),
+    ),
+    "star below try": (
+        "try:\n    from numpy import *\nexcept ImportError:\n    pass",
+        "def displacement(velocity, time):\n    return asarray(velocity)[:, None] * time",
+    ),
     "from the future": (
         "k = 2",
         "from __future__ import annotations",
@@ -210,6 +227,7 @@ def test_what_is_tried_out_beside_is_gone_and_told() -> None:
         ("k = await f()", "cell 2, line 1: left out: k = await f()"),
         ("return 3", "cell 2, line 1: left out: 'return' outside function"),
         ("%alias_magic \\\n  a b\nk = 1\nj = !ls", "cell 2, line 4: left out: j = !ls"),
+        ("k = " + "-" * 900 + "1", "cell 2, line 1: is n"),
         ("%%writefile helpers.py\nk = 3", "helpers.py, which a cell writes, is left out"),
         ("if 'colab' in str(get_ipython()):\n    k = 1", "cell 2, line 1: left out: if 'colab'"),
     ],
@@ -299,34 +317,6 @@ def test_a_thousand_cells() -> None:
     assert told.endswith("and 989 cells more")
 
 
-NOISE = (
-    "%matplotlib inline\nimport matplotlib.pyplot as plt",
-    "plt.figure(); plt.show()",
-    "!pip install numpy",
-    "some thoughts of mine",
-    "np.random.default_rng?",
-    "trial = [i for i in range(3)]\nfor one in trial:\n    print(one)",
-    "# \u2028 pasted",
-    "raise KeyboardInterrupt",
-)
-
-
-def in_cells(source: str, rng: random.Random) -> bytes:
-    """A module's text as a notebook: cut between statements at random, with cells of other things between."""
-    lines = source.split("\n")
-    starts = [
-        min([node.lineno, *(one.lineno for one in getattr(node, "decorator_list", ()))])
-        for node in ast.parse(source).body
-    ]
-    cuts = [0, *sorted(line - 1 for line in starts[1:] if rng.random() < 0.6), len(lines)]
-    cells = ["\n".join(lines[a:b]) for a, b in pairwise(cuts)]
-    # A docstring stays where it is; magic over a cell, and cells of other things anywhere.
-    cells = [f"%%time\n{cell}" if rng.random() < 0.2 else cell for cell in cells]
-    for _ in range(5):
-        cells.insert(rng.randrange(1, len(cells) + 1), rng.choice(NOISE))
-    return notebook(*cells)
-
-
 RIGHT = [(module, one.name, one.source) for module in COURSE for one in known(module) if one.right]
 
 
@@ -374,3 +364,54 @@ def test_the_notebook_earns_what_the_file_earns(module: str) -> None:
             only=lambda check: check.prepare is None,
         )
         assert report.points == pytest.approx(report.of)
+
+
+def test_student_and_class_read_what_was_left_out(tmp_path: Path) -> None:
+    cells = ("import numpy as np\nfiles = !ls", BLUR.format(factor=1))
+    (tmp_path / "class" / "ada").mkdir(parents=True)
+    (tmp_path / "class" / "ada" / "motion_blur.ipynb").write_bytes(notebook(*cells))
+    (one,) = find_submissions(tmp_path / "class", ["motion_blur"])
+    settings = Settings(0, ("motion_blur",))
+    job = Job("ada", {}, "stopped here", settings, remarks=one.remarks)
+    graded = grade_job(job, b"")
+    told = "motion_blur.ipynb: cell 1, line 2: left out: files = !ls"
+    assert len(graded.files) == 5
+    for name, content in graded.files.items():
+        assert told in content.decode(), name
+    write_grades([graded.report], tmp_path / "grades.csv", {"ada": Line(one.remarks)})
+    write_class_page([graded.report], [], tmp_path / "class.html", {"ada": Line(one.remarks)})
+    for name in ("grades.csv", "class.html"):
+        assert told in (tmp_path / name).read_text("utf-8")
+    changed = replace(one, remarks=())
+    assert fingerprint(one, settings) != fingerprint(changed, settings)
+
+
+def test_a_notebook_saved_as_a_program(tmp_path: Path) -> None:
+    """As nbconvert writes it: magics are calls, and what stood under %%time is a text."""
+    body = BLUR.format(factor="k")
+    text = (
+        "#!/usr/bin/env python\n# coding: utf-8\n\n# In[1]:\n\n\nimport numpy as np\n"
+        "get_ipython().run_line_magic('matplotlib', 'inline')\nk = 3\n\n# In[2]:\n\n\n"
+        f"get_ipython().run_cell_magic('time', '', {body!r})\nget_ipython().system('ls')\n"
+        "j = get_ipython().getoutput('ls')\n"
+    )
+    (tmp_path / "ada").mkdir()
+    (tmp_path / "ada" / "motion_blur.py").write_text(text, "utf-8")
+    (found,) = find_submissions(tmp_path, ["motion_blur"])
+    np.testing.assert_array_equal(moved(found.sources["motion_blur"])[0], 3 * TIME)
+    assert found.remarks == (
+        "motion_blur.py, a notebook saved as a program: cell 1, line 16: left out: j = !ls",
+    )
+
+
+def test_bars_of_progress_leave_the_loop() -> None:
+    """No worker has tqdm; a table of 3 + 2 + 1 items is filled under its bars."""
+    found = converted(
+        "import numpy as np\nimport tqdm as bars\nt = []",
+        "for i in bars.tqdm(range(3), desc='rows'):\n    t.append(i)",
+        "for i in bars.trange(2):\n    t.append(i)",
+        "with bars.tqdm(total=2) as bar:\n    bar.update(1)\n    t.append(9)\n    bar.update(1)",
+        BLUR.format(factor="len(t)"),
+    )
+    assert b"tqdm" not in found.sources["motion_blur"]
+    np.testing.assert_array_equal(moved(found.sources["motion_blur"])[0], 6 * TIME)

@@ -33,7 +33,7 @@ def roster(tmp_path: Path, text: str) -> Path:
 
 def matched_names(tmp_path: Path, text: str, submissions: dict[str, tuple[str, ...]]) -> Matched:
     claims = {student: (known,) * 3 for student, known in submissions.items()}
-    return match(read_roster(roster(tmp_path, text)), claims)
+    return match(read_roster(roster(tmp_path, text)).students, claims)
 
 
 def names(tmp_path: Path, text: str, **submissions: tuple[str, ...]) -> dict[str, str]:
@@ -80,7 +80,8 @@ def test_the_own_name_in_a_download_is_no_number_and_no_login(tmp_path: Path, na
     (tmp_path / f"{name}_999_1_thin_lens.py").write_text("def thin_lens(): ...")
     submissions = find_submissions(tmp_path, ["thin_lens"])
     matched = match(
-        read_roster(roster(tmp_path, CANVAS)), {one.student: one.claims for one in submissions}
+        read_roster(roster(tmp_path, CANVAS)).students,
+        {one.student: one.claims for one in submissions},
     )
     assert not matched.students
 
@@ -100,9 +101,9 @@ def test_a_table_that_is_no_roster(tmp_path: Path, text: str, told: str) -> None
 
 
 def test_what_canvas_imports(tmp_path: Path) -> None:
-    listed = read_roster(roster(tmp_path, CANVAS))
-    grades = [(listed[0], 87.5), (listed[2], 0.0)]
-    write_gradebook("canvas.csv", grades, 100.0, "Lens (77)", tmp_path / "c.csv")
+    own = read_roster(roster(tmp_path, CANVAS))
+    grades = [(own.students[0], 87.5), (own.students[2], 0.0)]
+    write_gradebook("canvas.csv", own, grades, 100.0, "Lens (77)", tmp_path / "c.csv")
     with (tmp_path / "c.csv").open(newline="", encoding="utf-8") as file:
         rows = [*csv.reader(file)]
     assert rows == [
@@ -114,10 +115,12 @@ def test_what_canvas_imports(tmp_path: Path) -> None:
 
 
 def test_what_moodle_imports(tmp_path: Path) -> None:
-    listed = read_roster(roster(tmp_path, MOODLE))
-    write_gradebook("moodle.csv", [(listed[1], 12.25)], 100.0, "Lens", tmp_path / "m.csv")
+    own = read_roster(roster(tmp_path, MOODLE))
+    write_gradebook(
+        "moodle.csv", own, [(own.students[1], 12.25)], 100.0, "Lens", tmp_path / "m.csv"
+    )
     with (tmp_path / "m.csv").open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
     assert row["Identifier"] == "Participant 12"
     assert (row["Full name"], row["Email address"]) == ("Bo Wu", "bo@example.org")
-    assert row["Lens"] == "12.25"
+    assert row["Grade"] == "12.25"

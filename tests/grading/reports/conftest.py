@@ -111,6 +111,7 @@ def hostile_report(report: Report) -> Report:
         student=HOSTILE,
         printed={"thin_lens": HOSTILE, HOSTILE: HOSTILE},
         protections=(HOSTILE,),
+        remarks=(HOSTILE,),
         version=HOSTILE,
         results=tuple(
             replace(

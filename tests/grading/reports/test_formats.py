@@ -49,6 +49,7 @@ OURS = exactly(
     trouble=TEXT,
     counts=exactly(**{str(status): {"type": "integer"} for status in Status}),
     protections=listing(TEXT),
+    remarks=listing(TEXT),
     printed={"type": "object", "additionalProperties": TEXT},
     results=listing(
         exactly(

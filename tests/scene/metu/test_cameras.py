@@ -164,7 +164,14 @@ def test_samples_are_a_jittered_grid_or_the_middle(
     assert metu.warnings == []
 
 
-def test_a_number_of_samples_that_is_no_square_is_cut_and_that_is_said(metu: Metu) -> None:
-    assert metu.load(tree(camera={"NumSamples": "40"})).settings.samples == 36
+@pytest.mark.parametrize(
+    ("given", "taken"), [("2", 1), ("3", 4), ("40", 36), ("44", 49), ("56", 49), ("57", 64)]
+)
+def test_of_samples_that_are_no_square_the_nearest_grid_is_taken_and_that_is_said(
+    metu: Metu, given: str, taken: int
+) -> None:
+    settings = metu.load(tree(camera={"NumSamples": given})).settings
+    assert (settings.sampler, settings.samples) == ("jittered", taken)
     (warning,) = metu.warnings
-    assert "Scene/Cameras/Camera/NumSamples is 40" in warning
+    assert f"Scene/Cameras/Camera/NumSamples is {given}" in warning
+    assert f"so {taken} are taken" in warning

@@ -144,11 +144,29 @@ def test_a_mirror_mirrors_and_its_depth_is_the_most_bounces(metu: Metu) -> None:
     np.testing.assert_allclose(metu.pixel(mirrored(mirror, "0")), [10, 0, 0], rtol=1e-6)
 
 
-def test_without_a_type_nothing_mirrors_and_that_is_said(metu: Metu) -> None:
+def test_beside_materials_with_a_type_one_without_does_not_mirror_and_that_is_said(
+    metu: Metu,
+) -> None:
     plain = {"MirrorReflectance": "0.9 0.5 0.1", "AmbientReflectance": "0.1 0 0"}
-    np.testing.assert_allclose(metu.pixel(mirrored(plain)), [10, 0, 0], rtol=1e-6)
+    scene = mirrored(plain)
+    glass = {"_id": "3", "_type": "dielectric", "RefractionIndex": "1.5"}
+    materials = [MATT, {"_id": "2"} | plain, glass]
+    scene["Materials"] = {"Material": materials}
+    np.testing.assert_allclose(metu.pixel(scene), [10, 0, 0], rtol=1e-6)
     (warning,) = metu.warnings
     assert "Material[2]/MirrorReflectance counts only with type mirror or conductor" in warning
+
+
+@pytest.mark.parametrize("roughness", ["0", "1e-6"])
+def test_in_a_file_without_any_type_reflectances_make_mirrors_and_that_is_said(
+    metu: Metu, roughness: str
+) -> None:
+    """The homework of 2019 had no types: a rough metal was drawn without its mirror."""
+    old = {"MirrorReflectance": "0.9 0.5 0.1", "AmbientReflectance": "0.1 0 0"}
+    old |= {"Roughness": roughness, "Transparency": "0 0.0 0"}
+    np.testing.assert_allclose(metu.pixel(mirrored(old)), [100, 50, 10], rtol=1e-4)
+    (warning,) = metu.warnings
+    assert "Material[2]/MirrorReflectance is that of type mirror, as no material" in warning
 
 
 @pytest.mark.parametrize(

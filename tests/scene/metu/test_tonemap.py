@@ -31,6 +31,21 @@ def test_the_codes_are_those_of_the_closed_form(metu: Metu, tmp_path: Path) -> N
     assert (codes == (255, 255, int(255 * blue))).all()
 
 
+@pytest.mark.parametrize("curve", ["sRGB", "srgb"])
+def test_a_gamma_may_be_the_curve_of_srgb(metu: Metu, tmp_path: Path, curve: str) -> None:
+    """Below 0.0031308 the curve is a line, above it a power of 1 / 2.4."""
+    matt = MATT | {"AmbientReflectance": "1 0.5 0.001", "DiffuseReflectance": "0 0 0"}
+    camera = {"ImageResolution": "4 4", "Tonemap": TONEMAP | {"Gamma": curve}}
+    metu.load(tree(camera=camera, materials=[matt]))
+    assert metu.warnings == []
+    render(load_scene(tmp_path / "scene.yaml")).save(tmp_path / "picture.png")
+    luminance = 0.2126 + 0.7152 * 0.5 + 0.0722 * 0.001
+    green, blue = 1.055 * min(1, 0.5 / luminance) ** (1 / 2.4) - 0.055, 12.92 * 0.001 / luminance
+    expected = [255, round(255 * green), round(255 * blue)]
+    codes = np.asarray(Image.open(tmp_path / "picture.png")).reshape(-1, 3)
+    assert (codes == expected).all()
+
+
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
@@ -38,6 +53,8 @@ def test_the_codes_are_those_of_the_closed_form(metu: Metu, tmp_path: Path) -> N
         ({"TMOOptions": "0 1"}, "a key from 0 to 100"),
         ({"TMOOptions": "0.18 101"}, "a key from 0 to 100"),
         ({"Gamma": "0"}, "a number > 0"),
+        ({"Gamma": "Rec709"}, "1 number, such as 1.5"),
+        ({"Gamma": "sRGB 2.2"}, "1 number, such as 1.5"),
     ],
 )
 def test_what_is_out_of_range_is_refused(metu: Metu, changed: dict[str, str], told: str) -> None:
