@@ -186,7 +186,7 @@ def test_what_nobody_sees_before_the_first_word_changes_nothing(tmp_path: Path, 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-32", "utf-8-sig", "utf-16-be"])
 def test_text_of_any_mark_is_read(tmp_path: Path, encoding: str) -> None:
-    mark = "\ufeff" if encoding == "utf-16-be" else ""
+    mark = "\ufeff\u200b" if encoding == "utf-16-be" else "\u200b"
     head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
     ply = f"{head}element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"

@@ -45,7 +45,13 @@ OVERLAP = np.array(
 """Turns left almost everywhere, and lies over itself: its triangles have the area that its corners say."""
 PENTAGRAM = np.array([(math.cos(k * 0.8 * math.pi), math.sin(k * 0.8 * math.pi)) for k in range(5)])
 
-CROSSED = {"bow": BOW, "overlap": OVERLAP, "pentagram": PENTAGRAM}
+WINDING = np.array(
+    [(0, 0)]
+    + [((1 + 0.2 * k) * math.cos(k * 0.9), (1 + 0.2 * k) * math.sin(k * 0.9)) for k in range(9)]
+)
+"""Turns left around its first corner, more than once: all triangles of a fan from there are turned alike."""
+
+CROSSED = {"winding": WINDING, "bow": BOW, "overlap": OVERLAP, "pentagram": PENTAGRAM}
 
 
 def tilted(places: Points) -> Points:
