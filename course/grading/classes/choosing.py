@@ -4,9 +4,10 @@ import json
 import re
 from collections.abc import Iterable, Sequence
 
+from course.grading.classes.engines import apart
 from course.grading.classes.entries import Entry, archive_suffix
 from course.grading.classes.names import NOTEBOOK, PYTHON, Named, read_name
-from course.grading.classes.notebooks import Notebook, read_notebook
+from course.grading.classes.notebooks import Notebook, converted, read_notebook
 from course.grading.submissions import LARGEST_FILE, SubmissionError
 from course.modules import COURSE
 
@@ -159,9 +160,8 @@ def _exported(entry: Entry, content: bytes, modules: Sequence[str], remarks: lis
         return sources
     cell = {"cell_type": "code", "source": content.decode("utf-8", "replace")}
     saved = json.dumps({"cells": [cell]}).encode()
-    try:
-        notebook = read_notebook(str(entry.path), saved, modules)
-    except SubmissionError:
+    (notebook,) = apart(converted, [(saved, tuple(modules))]).values()
+    if not isinstance(notebook, Notebook):
         return sources
     remarks += [f"{entry.path}, a notebook saved as a program: {told}" for told in notebook.told]
     return sources | notebook.sources

@@ -1,7 +1,7 @@
 """A module from a notebook: what its functions come to use, and nothing of what was tried out beside them.
 
 Drawing, timing and rendering are right in a notebook, and would fail where a module is imported. Nothing of a notebook
-is run here: its text is taken apart, in a process of its own.
+is run here, its text is taken apart: but that can be made to take long, so it is done in a process apart.
 """
 
 from __future__ import annotations
@@ -11,15 +11,11 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from course.grading.classes.engines import apart
 from course.grading.submissions import LARGEST_FILE, SubmissionError
 from course.modules import COURSE
 
 if TYPE_CHECKING:
     from course.grading.classes.cells import Statement
-
-SECONDS = 20.0
-"""That a notebook may take to read: one of a thousand cells takes two."""
 
 MOST_TOLD = 8
 """Places that are told of one notebook."""
@@ -42,19 +38,17 @@ class Notebook:
 
 
 def read_notebook(name: str, content: bytes, modules: Iterable[str]) -> Notebook:
-    """Read some modules from a notebook; ``SubmissionError`` where it is none, or can't be read in time.
+    """Read some modules from a notebook, in this process; ``SubmissionError`` where it is none.
 
     ``name``: of the file, for messages
     """
-    (found,) = apart(_converted, [(content, tuple(modules))], seconds=SECONDS).values()
-    if found is None:
-        raise SubmissionError(f"{name}: is no notebook that can be read within {SECONDS:g} s")
+    found = converted((content, tuple(modules)))
     if isinstance(found, str):
         raise SubmissionError(f"{name}: is no notebook that can be read: {found}")
     return found
 
 
-def _converted(work: tuple[bytes, tuple[str, ...]]) -> Notebook | str:
+def converted(work: tuple[bytes, tuple[str, ...]]) -> Notebook | str:
     """The notebook, or why it is none."""
     # IPython takes a fifth of a second to import.
     from course.grading.classes.cells import NO_NOTEBOOK, read_cells

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from course.errors import CourseError
-from course.grading.classes.choosing import choose, content_of, modules_defined
+from course.grading.classes.choosing import choose, content_of, is_notebook, modules_defined
 from course.grading.classes.engines import LARGEST_SPACE, apart
 from course.grading.classes.entries import (
     LARGEST_ARCHIVE,
@@ -33,9 +33,11 @@ from course.modules import COURSE
 from course.texts import clean_line
 
 READING = 60.0
-"""Seconds that reading one submission may take if there are archives in it."""
+"""Seconds that reading one submission may take if there are archives or notebooks in it."""
 
-_ENDLESS = f"its archives can't be read within {READING:g} s and {LARGEST_SPACE // 10**9} GB"
+_ENDLESS = (
+    f"its archives and notebooks can't be read within {READING:g} s and {LARGEST_SPACE // 10**9} GB"
+)
 
 _IGNORED = ("__MACOSX", "__pycache__", "Thumbs.db", "desktop.ini")
 
@@ -232,9 +234,9 @@ def _own_name(owner: str, taken: set[str]) -> str:
 
 
 def _read_all(handed: dict[str, _Handed], modules: tuple[str, ...]) -> list[Submission]:
-    """Submissions by their students' names, read; those with archives in another process.
+    """Submissions by their students' names, read; those with archives or notebooks in another process.
 
-    What unpacks archives can be made to take hours, or all memory.
+    What unpacks or parses can be made to take hours, or all memory.
     """
     packed, found = [], []
     for student, one in handed.items():
@@ -249,9 +251,11 @@ def _read_all(handed: dict[str, _Handed], modules: tuple[str, ...]) -> list[Subm
 
 
 def _is_packed(handed: _Handed) -> bool:
-    """Whether there are archives among the files; what can't be read has none."""
+    """Whether there are archives or notebooks among the files; what can't be read has none."""
     try:
-        return any(archive_suffix(entry.path.name) for entry in _entries(handed))
+        return any(
+            archive_suffix(entry.path.name) or is_notebook(entry) for entry in _entries(handed)
+        )
     except CourseError:
         return False
 

@@ -16,7 +16,8 @@ from traitlets.config import Config
 from benchmarks.mutants.cells import in_cells
 from course.grading.classes.job import Job, grade_job
 from course.grading.classes.keeping import fingerprint
-from course.grading.classes.notebooks import Notebook, _converted, read_notebook
+from course.grading.classes.notebooks import Notebook, read_notebook
+from course.grading.classes.notebooks import converted as converted_notebook
 from course.grading.classes.settings import Settings
 from course.grading.classes.submitted import find_submissions
 from course.grading.grading import grade
@@ -39,7 +40,7 @@ def notebook(*cells: str, **more: Any) -> bytes:
 
 
 def converted(*cells: str) -> Notebook:
-    found = _converted((notebook(*cells), ("motion_blur",)))
+    found = converted_notebook((notebook(*cells), ("motion_blur",)))
     assert isinstance(found, Notebook)
     return found
 
@@ -288,7 +289,7 @@ def test_one_notebook_for_several_modules(tmp_path: Path) -> None:
 def test_an_older_format_and_other_languages() -> None:
     cell = {"cell_type": "code", "input": ["import numpy as np\n", BLUR.format(factor=1)]}
     old = json.dumps({"nbformat": 3, "worksheets": [{"cells": [cell]}]}).encode()
-    found = _converted((old, ("motion_blur",)))
+    found = converted_notebook((old, ("motion_blur",)))
     assert isinstance(found, Notebook)
     assert moved(found.sources["motion_blur"]).shape == (3, 2)
     content = notebook("x <- 1", metadata={"kernelspec": {"language": "R"}})
@@ -324,7 +325,7 @@ RIGHT = [(module, one.name, one.source) for module in COURSE for one in known(mo
 def test_right_submissions_in_cells_keep_every_statement_that_counts(module: str) -> None:
     """What is left out has a name that nothing else of the file reads."""
     for seed, (_, name, source) in enumerate(one for one in RIGHT if one[0] == module):
-        found = _converted((in_cells(source, random.Random(seed)), (module,)))
+        found = converted_notebook((in_cells(source, random.Random(seed)), (module,)))
         assert isinstance(found, Notebook)
         kept = [ast.dump(node) for node in ast.parse(found.sources[module]).body]
         own = ast.parse(source).body
@@ -354,7 +355,7 @@ def test_right_submissions_in_cells_keep_every_statement_that_counts(module: str
 @pytest.mark.parametrize("module", ["motion_blur", "quasi_monte_carlo"])
 def test_the_notebook_earns_what_the_file_earns(module: str) -> None:
     _, _, source = next(one for one in RIGHT if one[0] == module)
-    found = _converted((in_cells(source, random.Random(7)), (module,)))
+    found = converted_notebook((in_cells(source, random.Random(7)), (module,)))
     assert isinstance(found, Notebook)
     for text in (source.encode(), found.sources[module]):
         report = grade(
