@@ -437,6 +437,6 @@ def test_pixels_are_bounded_by_the_scene_and_not_by_pillow(
     # Pillow refuses twice as many as this.
     monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", 20)
     # One picture of 48 pixels is read in strips of whole rows, which are smaller than that.
-    monkeypatch.setattr("course.formats.pictures.reading._STRIP", 8)
+    monkeypatch.setattr("course.formats.pictures.mending.STRIP", 8)
     assert read("a.png", by_hand.png(codes(3, 8))).shape == (6, 8, 3)
     assert Image.MAX_IMAGE_PIXELS == 20

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import threading
 import warnings
-from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, Final
 
@@ -18,6 +16,7 @@ from course.core.types import Floats32
 from course.errors import CourseWarning, SceneError
 from course.formats.pictures.icc import in_srgb, is_srgb
 from course.formats.pictures.layers import choose
+from course.formats.pictures.mending import Found, mend, parts_of, strips
 from course.formats.pictures.placing import in_display_window, orientation, upright
 from course.formats.pictures.png_colours import Coding, Transfer, coding_of
 from course.formats.pictures.primaries import to_rec709
@@ -40,16 +39,8 @@ CODED: Final = ("PNG", "JPEG", "TIFF", "BMP", "GIF", "WEBP", "PPM", "TGA")
 FRAMES: Final = ("GIF", "WEBP", "TIFF", "PNG")
 """Formats that may have several pictures of which each is one to be looked at."""
 
-HALF: Final = 65504.0
-"""The largest number of 16 bits: what is beyond it in a file of such numbers is infinite there."""
-
-_HUGE: Final = float(np.finfo(np.float32).max)
-
 USUAL_FILE: Final = Bound(LARGEST_DATA)
 USUAL_PIXELS: Final = Bound(MOST_PIXELS)
-
-_STRIP: Final = 1 << 20
-"""Pixels that are converted at a time: steps in between take memory for these only, and not for the picture."""
 
 _OPENING = threading.Lock()
 
@@ -91,83 +82,10 @@ def read_picture(
         except Exception as error:
             reason = (str(error) or type(error).__name__).splitlines()[0]
             raise SceneError(f"{shown(path)}: not a picture that can be read: {reason}") from error
-    notes = found.notes + _mend(found, path)
+    notes = found.notes + mend(found, path)
     if notes:
         warnings.warn(f"{shown(path)}: {'; '.join(notes)}", CourseWarning, stacklevel=2)
     return found.pixels
-
-
-@dataclass(frozen=True)
-class _Found:
-    """A picture as it has been read.
-
-    Attributes
-    ----------
-    pixels : (H, W, 3)
-    notes : what is to be told of it
-    white : what its colours can't exceed; infinite where they are light
-    """
-
-    pixels: Floats32
-    notes: list[str] = field(default_factory=list)
-    white: float = np.inf
-
-
-def _mend(found: _Found, path: Path) -> list[str]:
-    """Make values those that light can have, and say of how many pixels; SceneError where some are no numbers."""
-    infinite = negative = bright = 0
-    lowest: tuple[float, int, int] = 0.0, 0, 0
-    picture = found.pixels
-    width = picture.shape[1]
-    for rows in _strips(*picture.shape[:2]):
-        part = picture[rows]
-        if part.min(initial=0) >= 0 and part.max(initial=0) <= min(found.white, _HUGE):
-            continue
-        nothing = np.argwhere(np.isnan(part) | (part == -np.inf))
-        if len(nothing):
-            y, x = nothing[0][:2]
-            raise SceneError(
-                f"{shown(path)}: the pixel in column {x}, row {y + rows.start} is not a number, or less than any:"
-                " mend it where the picture was made"
-            )
-        low = part.min(axis=2)
-        negative += int(np.count_nonzero(low < 0))
-        if low.min() < lowest[0]:
-            y, x = divmod(int(low.argmin()), width)
-            lowest = float(low.min()), x, y + rows.start
-        infinite += int(np.isinf(part).any(axis=2).sum())
-        bright += int(((part > found.white) & ~np.isinf(part)).any(axis=2).sum())
-    notes = []
-    if infinite:
-        largest = max(
-            (float(np.where(np.isinf(part), 0, part).max()) for part in _parts_of(picture)),
-            default=0,
-        )
-        largest = max(largest, HALF)
-        notes.append(f"pixels that are infinite: {infinite:,}, taken for {largest:g}")
-        for part in _parts_of(picture):
-            part[np.isinf(part)] = largest
-    if negative:
-        value, x, y = lowest
-        notes.append(
-            f"pixels that are negative: {negative:,}, down to {value:.3g} in column {x}, row {y}, taken for 0"
-        )
-    if bright:
-        notes.append(f"pixels of colours that sRGB hasn't: {bright:,}, taken for its nearest")
-    if negative or bright:
-        for part in _parts_of(picture):
-            np.clip(part, 0, found.white, out=part)
-    return notes
-
-
-def _parts_of(picture: Floats32) -> Iterator[Floats32]:
-    return (picture[rows] for rows in _strips(*picture.shape[:2]))
-
-
-def _strips(height: int, width: int) -> Iterator[slice]:
-    """Rows of a picture, a strip after the other."""
-    step = max(1, _STRIP // width)
-    return (slice(y, min(y + step, height)) for y in range(0, height, step))
 
 
 def _check_size(width: int, height: int, pixels: Bound) -> None:
@@ -175,7 +93,7 @@ def _check_size(width: int, height: int, pixels: Bound) -> None:
         raise ValueError(f"{width} x {height} are more than {pixels.most:,} pixels{pixels.remedy}")
 
 
-def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> _Found:
+def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> Found:
     notes: list[str] = []
     # Pillow warns of what it can read all the same, such as a damaged date or 90 million pixels.
     with warnings.catch_warnings(action="ignore"), _opened(stream) as image:
@@ -210,9 +128,9 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> _Fo
             )
         picture = _from_deep_codes(path, _table(65536, codes, coding.transfer))
     if coding.matrix is not None:
-        for part in _parts_of(picture):
+        for part in parts_of(picture):
             part[:] = part @ coding.matrix.T.astype(np.float32)
-    return _Found(upright(picture, turned), notes, white=1.0)
+    return Found(upright(picture, turned), notes, white=1.0)
 
 
 def _opened(stream: BinaryIO) -> Image:
@@ -239,7 +157,7 @@ def _table(count: int, codes: bool, transfer: Transfer) -> Floats32:
 def _from_codes(image: Image, table: Floats32) -> Floats32:
     """A picture of 8 bits (H, W, 3) by a table of what its codes mean."""
     picture = np.empty((image.height, image.width, 3), np.float32)
-    for rows in _strips(image.height, image.width):
+    for rows in strips(image.height, image.width):
         codes = image.crop((0, rows.start, image.width, rows.stop)).convert("RGB")
         # Every code is in the table; any other mode than "clip" would write to a copy first.
         table.take(np.asarray(codes), out=picture[rows], mode="clip")
@@ -251,7 +169,7 @@ def _from_deep_codes(path: Path, table: Floats32) -> Floats32:
     file, spec = _open_linear(path)
     channels = (0, 3 if len(spec.channelnames) >= 3 else 1)
     picture = np.empty((spec.height, spec.width, 3), np.float32)
-    for rows in _strips(spec.height, spec.width):
+    for rows in strips(spec.height, spec.width):
         # A tiled picture can't be read by rows.
         if spec.tile_width:
             rows = slice(0, spec.height)
@@ -281,7 +199,7 @@ def _is_deep_png(stream: BinaryIO) -> bool:
 
 def _read_linear(
     stream: BinaryIO, path: Path, most: Bound, codes: bool, layer: str | None
-) -> _Found:
+) -> Found:
     # OpenImageIO would try all its formats one after the other, which takes minutes with a large file.
     if not stream.read(max(map(len, MAGIC))).startswith(MAGIC):
         raise ValueError("it begins neither as EXR nor as HDR")
@@ -314,12 +232,12 @@ def _read_linear(
                 f"its chromaticities aren't heeded, and colours taken for sRGB's: {error}",
             ]
         if matrix is not None:
-            for part in _parts_of(picture):
+            for part in parts_of(picture):
                 # An infinite red is one in all channels, and not a difference of two infinite ones.
                 infinite = np.isinf(part).any(axis=2, keepdims=True)
                 turned = np.where(infinite, 0, part) @ matrix.T.astype(np.float32)
                 part[:] = np.where(infinite, np.inf, turned)
-    return _Found(picture, notes)
+    return Found(picture, notes)
 
 
 def _open_linear(path: Path) -> tuple[ImageInput, ImageSpec]:
