@@ -14,11 +14,12 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from course import shapes
-from course.building.cutting import Triangles, bisected, undivided
+from course.building.cutting import bisected, undivided
 from course.building.frame import Frame
 from course.building.lights import rectangle_mesh
 from course.building.materials import base_color
 from course.building.objects import object_mesh
+from course.building.triangles import Triangles
 from course.core.types import Floats32, Floats64, Indices, Mask
 from course.effects import Effects
 from course.formats.yaml import description as d
