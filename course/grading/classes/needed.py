@@ -127,7 +127,9 @@ class Code:
 
     def _keep(self, use: _Use, how: str) -> None:
         use.kept = how
-        (self.needed if how == AS_IT_IS else self.may).update(use.reads, use.sets)
+        # A name that += stores to is read, too.
+        names = use.reads | use.sets | use.now.stores
+        (self.needed if how == AS_IT_IS else self.may).update(names)
 
     def _how(self, use: _Use, watched: set[str], carriers: set[str]) -> str:
         """How a statement is to be kept, by what is needed until now."""

@@ -96,6 +96,12 @@ LIKE_JUPYTER = {
         BLUR.format(factor="t[3]"),
     ),
     "by another name": ("t = [1, 2]", "s = t", "s.reverse()", BLUR.format(factor="t[0]")),
+    "augmented by another name": (
+        "t = [1]",
+        "s = t",
+        "s += [2, 3]",
+        BLUR.format(factor="len(t)"),
+    ),
     "by rows": ("t = [[1], [2]]", "for r in t:\n    r[0] += 3", BLUR.format(factor="t[1][0]")),
     "handed over": ("t = np.zeros(2)", "np.copyto(t, 8.0)", BLUR.format(factor="t[1]")),
     "handed to out": ("t = np.ones(2)", "np.add(t, 1, out=t)", BLUR.format(factor="t[1]")),
