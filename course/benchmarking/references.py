@@ -58,7 +58,8 @@ def scene_hash(loaded: Loaded, effects: Effects, **settings: object) -> str:
     """
     data = {k: v for k, v in loaded.document.data.items() if k not in ("sampler", "seed", "title")}
     files = {
-        name: _file_hash(loaded.path.parent / name) for name in named_files(loaded.description)
+        name: _file_hash(loaded.path.parent / name)
+        for name in named_files(loaded.description, loaded.path.parent)
     }
     everything = [data, files, settings, engine_hash(effects.folder.resolve())]
     text = json.dumps(everything, sort_keys=True, allow_nan=False)

@@ -73,7 +73,7 @@ def check_spared(outputs: Sequence[Named], loaded: Loaded) -> None:
     # A command that writes one scene's pictures has read it with this module.
     from course.formats.yaml.named_files import named_files
 
-    for name in named_files(loaded.description):
+    for name in named_files(loaded.description, loaded.path.parent):
         check_distinct(outputs, loaded.path.parent / name)
 
 

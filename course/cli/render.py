@@ -146,7 +146,8 @@ def _named(scene: Path, _saved: int) -> list[Path]:
     if is_metu(scene):
         return []
     try:
-        return [scene.parent / name for name in named_files(load_description(scene).description)]
+        description = load_description(scene).description
+        return [scene.parent / name for name in named_files(description, scene.parent)]
     except CourseError:
         return []
 

@@ -23,6 +23,7 @@ from course.compiled.library import available as packets_available
 from course.core.tracer import Tracer
 from course.effects import PACKAGE, Effects
 from course.errors import CourseError
+from course.formats.meshes.gltf import files_beside
 from course.formats.yaml.loading import Loaded
 from course.formats.yaml.named_files import with_files
 from course.rendering.binding import bind
@@ -81,7 +82,9 @@ def unpack(content: bytes, folder: Path) -> Scene:
 def _write(files: Mapping[str, bytes], folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in files.items():
-        (folder / name).write_bytes(content)
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
 
 
 class _Files:
@@ -95,9 +98,13 @@ class _Files:
     def add(self, name: str) -> str:
         """The name of a file in the parcel."""
         if name not in self._names:
-            # The suffix says what is in it.
-            new = f"file-{len(self._names)}{Path(name).suffix}"
-            self.contents[new] = (self._folder / name).read_bytes()
+            path = self._folder / name
+            # The suffix says what is in it; what lies beside it is found there again.
+            home = f"file-{len(self._names)}"
+            new = f"{home}/file{path.suffix}"
+            self.contents[new] = path.read_bytes()
+            for other in files_beside(path):
+                self.contents[f"{home}/{other}"] = (path.parent / other).read_bytes()
             self._names[name] = new
         return self._names[name]
 

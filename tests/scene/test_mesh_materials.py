@@ -1,5 +1,6 @@
 """Materials by the names that a mesh file gives to its faces: what each face shows, and what is told."""
 
+import json
 import warnings
 from pathlib import Path
 
@@ -7,7 +8,10 @@ import numpy as np
 import pytest
 
 import course
+from course.cluster.parcel import pack, unpack
 from course.errors import CourseWarning, SceneError
+from course.formats.yaml.named_files import named_files
+from tests.geometry.gltf_files import Writer
 
 # Four strips one unit wide, from x = 0 to 4, in z = 0; the last has no material.
 STRIPS = "".join(f"v {x} {y} 0\n" for x in range(5) for y in (0, 1))
@@ -129,3 +133,23 @@ def test_a_light_has_one_material(tmp_path: Path) -> None:
         SceneError, match=r"lights\[0\] is this object, and a light has one material"
     ):
         course.load_scene(tmp_path / "scene.yaml")
+
+
+def test_files_beside_a_gltf_file_are_files_of_the_scene(tmp_path: Path) -> None:
+    """Whoever hashes, watches, spares or sends the files of a scene needs them; a parcel renders without the folder."""
+    writer = Writer()
+    uri = "more/a%20b.bin"
+    writer.header["buffers"] = [{"byteLength": len(writer.binary), "uri": uri}]
+    (tmp_path / "sub" / "more").mkdir(parents=True)
+    (tmp_path / "sub" / "more" / "a b.bin").write_bytes(writer.binary)
+    (tmp_path / "sub" / "square.gltf").write_text(json.dumps(writer.header))
+    text = SCENE.format(keys="").replace("strips.obj", "sub/square.gltf")
+    (tmp_path / "scene.yaml").write_text(text)
+    scene = course.load_scene(tmp_path / "scene.yaml")
+    files = named_files(scene.loaded.description, tmp_path)
+    assert files == ["sub/square.gltf", "sub/more/a b.bin"]
+    parcel = pack(scene)
+    (tmp_path / "sub" / "more" / "a b.bin").unlink()
+    (tmp_path / "there").mkdir()
+    there = unpack(parcel.content, tmp_path / "there")
+    assert there.compiled.triangles[0] == 2

@@ -10,17 +10,21 @@ The format: Khronos Group, "glTF 2.0 specification", 2021. Extensions are read b
 import struct
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Final
+from urllib.parse import unquote
 
 import numpy as np
 
 from course.core.types import Floats64
+from course.errors import CourseError
 from course.formats.meshes.beside import Beside
 from course.formats.meshes.gltf_data import Data, item
 from course.formats.meshes.gltf_json import Node, Primitive, read_root
 from course.formats.meshes.gltf_nodes import Tree, placed, tree_of
 from course.formats.meshes.gltf_shapes import Joints, name_of, part_of
 from course.formats.meshes.parts import Part
+from course.inputs import LARGEST_DATA, Bound, read_input
 
 MOST_PARTS: Final = 1 << 16
 """Primitives of all meshes that are shown."""
@@ -48,6 +52,24 @@ def parse_glb(data: bytes, beside: Beside) -> list[Part]:
     if b"JSON" not in chunks:
         raise ValueError("its JSON chunk is missing or cut short")
     return _parts(bytes(chunks[b"JSON"]), chunks.get(b"BIN\0"), beside)
+
+
+def files_beside(path: Path) -> list[str]:
+    """Names of the files that a GLB or glTF file takes buffers from, relative to its folder; none of any other file.
+
+    A file that can't be read has none: whoever reads it tells why.
+    """
+    if path.suffix.lower() not in (".glb", ".gltf"):
+        return []
+    try:
+        data = read_input(path, "mesh file", Bound(LARGEST_DATA))
+        if data[:4] == b"glTF":
+            data = bytes(dict(reversed(list(_chunks(memoryview(data)))))[b"JSON"])
+        root, _ = read_root(data)
+    except (CourseError, ValueError, KeyError):
+        return []
+    uris = (buffer.uri for buffer in root.buffers if buffer.uri is not None)
+    return [unquote(uri) for uri in uris if uri[:5].lower() != "data:"]
 
 
 def parse_gltf(data: bytes, beside: Beside) -> list[Part]:

@@ -1,6 +1,7 @@
 """The files that a scene names: meshes, and pictures of its environment and of its objects' textures and normals."""
 
 from collections.abc import Callable
+from pathlib import Path, PurePosixPath
 
 from msgspec.structs import replace
 
@@ -39,8 +40,8 @@ def with_files(scene: d.SceneDescription, change: Callable[[str], str]) -> d.Sce
     return replace(scene, objects=objects, materials=materials, environment=environment)
 
 
-def named_files(scene: d.SceneDescription) -> list[str]:
-    """Every file that a scene names, as it names them, each once."""
+def named_files(scene: d.SceneDescription, folder: Path) -> list[str]:
+    """Every file that a scene in that folder names, as it names them, each once; and those beside its glTF files."""
     names: dict[str, None] = {}
 
     def note(name: str) -> str:
@@ -48,4 +49,10 @@ def named_files(scene: d.SceneDescription) -> list[str]:
         return name
 
     with_files(scene, note)
+    for name in [name for name in names if name.lower().endswith((".glb", ".gltf"))]:
+        # Its readers are many; most scenes need none of them for this.
+        from course.formats.meshes.gltf import files_beside
+
+        for other in files_beside(folder / name):
+            note((PurePosixPath(name).parent / other).as_posix())
     return list(names)
