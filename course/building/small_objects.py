@@ -288,7 +288,7 @@ def _parts(
 
 def _divided(mesh: Mesh) -> list[Mesh]:
     """The LARGEST parts of a mesh by their number of triangles; itself where it is in one piece."""
-    # A mesh file has been read, so trimesh has imported SciPy.
+    # Heavy, and only meshes of files need it.
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
