@@ -175,6 +175,20 @@ class Effects:
                 )
         return name in self._written[module]
 
+    def idle(self, called: Iterable[str]) -> list[str]:
+        """What is written and was not called: functions of modules that were, and else modules; none if trusted.
+
+        ``called``: "module.function"
+        """
+        called, found = set(called), []
+        if self.trusted:
+            return []
+        for module, names in COURSE.items():
+            own = [f"{module}.{name}" for name in names if self.written(module, name)]
+            asked = called.intersection(f"{module}.{name}" for name in names)
+            found += [name for name in own if name not in called] if asked else [module] * bool(own)
+        return found
+
     @property
     def imported(self) -> tuple[str, ...]:
         """Names of the modules that have been needed so far."""

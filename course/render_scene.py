@@ -301,6 +301,8 @@ def _receipt(
         yours["yours"] = [name for name in called if effects.written(*name.split("."))]
     if standing := {name: said for name in called if (said := effects.stand_in(*name.split(".")))}:
         yours["stand-ins"] = standing
+    if idle := effects.idle(called):
+        yours["not called"] = idle
     return Receipt(
         rays=dict(counters.rays),
         numbers=dict(counters.numbers),

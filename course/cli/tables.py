@@ -14,6 +14,10 @@ _CASTERS = {"embree": "Embree", "numba": "Numba's BVH", "numpy": "NumPy's BVH"}
 """What answers rays, by the receipt's names."""
 
 
+NAMED = 4
+"""Modules without a call that are named; of more, their number is told."""
+
+
 def print_sections(title: str, sections: Iterable[Section]) -> None:
     """Print a table on stdout."""
     sections = list(sections)
@@ -83,6 +87,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
                     if name not in standing
                 ),
                 *(("stand-in", f"{name}: {said}") for name, said in standing.items()),
+                *_idle(effects.get("not called", ())),
                 *_skipped(effects["skipped"]),
             ],
         ),
@@ -132,6 +137,16 @@ def _tests(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
         (kind, f"{number:,}, {number / rays:.1f} a ray")
         for kind, number in receipt.get("tests", {}).items()
     ]
+
+
+def _idle(idle: Sequence[str]) -> list[tuple[str, str]]:
+    """Functions of one's own that a picture does without, by name, and the modules of which it uses none."""
+    functions = [name for name in idle if "." in name]
+    modules = [name for name in idle if "." not in name]
+    if modules:
+        named = ", ".join(modules) if len(modules) <= NAMED else f"{len(modules)} modules"
+        functions.append(f"all of {named}")
+    return [("not called", ", ".join(functions))] if functions else []
 
 
 def _skipped(skipped: Mapping[str, str]) -> list[tuple[str, str]]:

@@ -15,7 +15,8 @@ class Receipt:
     numbers : dimension -> numbers drawn
     effects : "called" -> list of functions, "skipped" -> name -> reason; with "mine" for effects also "yours" -> the
         functions called that aren't the solutions', and where there are no solutions "stand-ins" -> name -> what the
-        picture looks like without the function
+        picture looks like without the function; with functions of one's own also "not called" -> those of them that
+        the scene doesn't call, and modules of which it calls none
     seconds : stage -> seconds, summed over threads
     caster : what answered rays: "embree", or its stand-in, "numba" or "numpy"
     embree_seconds : inside Embree or its stand-in, summed over threads

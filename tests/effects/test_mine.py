@@ -13,6 +13,7 @@ from PIL import Image
 
 from course import EffectError, load_scene, pixel, render
 from course.cli.main import commands
+from course.cli.tables import receipt_sections
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects, written_functions
 from course.errors import CourseWarning
@@ -273,3 +274,34 @@ def test_a_copy_beside_a_file_is_no_matter(mine: Path) -> None:
         warnings.simplefilter("error", CourseWarning)
         assert Effects("mine").written("glossy", "sample_phong_lobe")
         assert not Effects("mine").written("film", "reinhard")
+
+
+def test_functions_that_a_scene_does_not_call_are_told(mine: Path) -> None:
+    # A plug-in that returns nonsense, and a picture that stays as it is, without a word.
+    (mine / "quasi_monte_carlo.py").write_text(
+        "def radical_inverse(base, i):\n    return i * 0.5\n", encoding="utf-8"
+    )
+    (mine / "film.py").write_text("def expose(radiance, stops):\n    return radiance\n")
+    with (mine / "glossy.py").open("a") as file:
+        file.write("\n\ndef orthonormal_basis(w):\n    return w, w\n")
+    small = {**SMALL, "sampler": "halton"}
+    receipt = render(load_scene(SCENE, "mine"), **small).receipt.to_dict()
+    told = receipt["effects"]
+    assert "quasi_monte_carlo.halton" in told["called"]
+    assert told["not called"] == [
+        "glossy.orthonormal_basis",
+        "quasi_monte_carlo.radical_inverse",
+        "film",
+    ]
+    assert (
+        told_row(receipt)
+        == "glossy.orthonormal_basis, quasi_monte_carlo.radical_inverse, all of film"
+    )
+    solutions = render(load_scene(SCENE, "solutions"), **small).receipt.to_dict()["effects"]
+    assert "not called" not in solutions
+
+
+def told_row(receipt: dict[str, Any]) -> str:
+    """What the command's table says of functions that were not called."""
+    rows = dict(receipt_sections(receipt))["effects"]
+    return next(value for label, value in rows if label == "not called")
