@@ -78,7 +78,12 @@ RUNS: dict[str, tuple[str, ...]] = {
 }
 """A run of each command. What it comes to is not the matter here: some end in a refusal."""
 
-STAYS = {"studio", "view"}
+WATCHES = {
+    "check --watch": (*CHECK, "--watch"),
+    "render --watch": (*RUNS["render"], "--watch"),
+}
+
+STAYS = {"studio", "view", *WATCHES}
 """Commands that run until Ctrl-C."""
 
 BEGUN = {"release", "bundle", "references", "quiz", "calibrate"}
@@ -134,9 +139,9 @@ def test_each_command_has_a_run() -> None:
     assert {*RUNS, "grade"} == set(COMMANDS)
 
 
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize("name", [*RUNS, *WATCHES])
 def test_a_command_runs_no_file_of_the_current_folder(name: str, strangers: Path) -> None:
-    command = [str(strangers.parent / "course"), *RUNS[name]]
+    command = [str(strangers.parent / "course"), *(RUNS | WATCHES)[name]]
     assert ran(strangers, command, ends=name not in STAYS | BEGUN) == ""
 
 
