@@ -6,6 +6,7 @@ whether these are right is decided elsewhere. The walls around the student's cod
 kernel keeps. The audit hook is none: it tells honest students by name what a function on arrays has no business with.
 """
 
+import io
 import json
 import linecache
 import os
@@ -62,7 +63,8 @@ def main() -> None:
         linecache.cache[f"{name}.py"] = (
             len(text),
             None,
-            text.decode("utf-8", "replace").splitlines(keepends=True),
+            # As Python counts lines; str.splitlines would end one at U+2028, too.
+            [*io.StringIO(text.decode("utf-8", "replace"), newline=None)],
             f"{name}.py",
         )
         exec(compile(text, f"{name}.py", "exec", dont_inherit=True), module.__dict__)

@@ -182,3 +182,11 @@ def test_a_file_of_another_encoding_is_told_which_to_choose(encoding: str) -> No
         worker.call("f")
     assert error.value.module_wide
     assert "save it anew" in error.value.remedy
+
+
+def test_the_line_that_is_shown_is_the_one_that_raised_whatever_stands_above() -> None:
+    source = "# a\u2028b\x0bc\u0085d\r\n\r\ndef f():\r\n    return 1 / 0\r\n"
+    with Worker("m", source.encode()) as worker, pytest.raises(StudentError) as error:
+        worker.call("f")
+    assert "line 4" in error.value.traceback
+    assert "return 1 / 0" in error.value.traceback
