@@ -1,6 +1,7 @@
 """From light descriptions to lights in the frame of the compiled scene, and to surfaces that rays can see."""
 
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,6 +12,7 @@ from course.building.frame import Frame, in_range, in_reach
 from course.building.lamps_and_lobes import asks_for_phong
 from course.building.light_power import given, why_dark
 from course.building.motion import Shutter
+from course.building.repeated import repeated
 from course.building.sampled_points import NUMBERS, SPHERES
 from course.core.lights.point import DirectionalLight, PointLight
 from course.core.lights.rectangle import RectangleLight
@@ -20,7 +22,7 @@ from course.core.materials import MaterialTable
 from course.core.triangles import Triangles
 from course.core.types import Floats32, Floats64, Functions
 from course.effects import Bound
-from course.errors import FunctionError
+from course.errors import CourseWarning, FunctionError
 from course.extras.light_choice import UNIFORM, LightChoice, PowerChoice
 from course.extras.light_tree import functions_for, tree_choice
 from course.extras.mesh_light import MeshLight, areas, shares
@@ -153,6 +155,15 @@ class _Compiler:
     def of_object(self, light: d.ObjectLight, triangles: Triangles, material: int) -> MeshLight:
         """A light of the triangles that have a material."""
         which = np.flatnonzero(triangles.material == material)
+        again = repeated(triangles.planes[which], triangles.edges[which])
+        if again.any():
+            warnings.warn(
+                f"{self.loaded.document.where(self.path)}: {again.sum():,} of {len(which):,} triangles of the object"
+                f' "{light.object}" lie where others of it lie; each place shines once',
+                CourseWarning,
+                stacklevel=2,
+            )
+        which = which[~again]
         edges = triangles.edges[which]
         area = areas(edges)
         if not area.sum() > 0:
