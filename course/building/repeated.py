@@ -51,7 +51,9 @@ def _covered(p: Floats64) -> Mask:
 def _coincident(p: Floats64) -> Mask:
     size = float(np.abs(p).max(initial=0))
     cells = np.round(p.mean(axis=1) / (CELL * size or 1)).astype(np.int64)
-    _, first, group = np.unique(cells, axis=0, return_index=True, return_inverse=True)
+    # Each is within 2^16 of 0: three make one number.
+    key = cells @ np.array((1, 1 << 20, 1 << 40))
+    _, first, group = np.unique(key, return_index=True, return_inverse=True)
     other = first[group.ravel()]
     some = np.flatnonzero(other != np.arange(len(p)))
     between = np.linalg.norm(p[some][:, :, None] - p[other[some]][:, None], axis=3)
