@@ -57,6 +57,7 @@ def merge_cones(axis_a, angle_a, axis_b, angle_b):
     axis : (3, N) unit vectors, of the dtype of the arguments, or NumPy's promotion of them
         Where all directions are in the cone, any.
     angle : (N,) in [0, pi], of the same dtype
+        It keeps its digits where the axes are nearly the same, in float32, too.
 
     Raises
     ------

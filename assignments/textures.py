@@ -57,7 +57,7 @@ def sphere_uv(p, center):
     -------
     (2, N) in [0, 1], of the dtype of p
         On the half circle through +x, where the picture's ends meet, u is 0 or 1; on the poles it is anything
-        from 0 to 1.
+        from 0 to 1. Next to the poles v keeps its digits, in float32, too.
 
     Raises
     ------
