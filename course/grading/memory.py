@@ -2,13 +2,14 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 
 import psutil
 
 
 @contextmanager
 def at_most(more: int) -> Iterator[None]:
-    """Within, this process has no more than ``more`` bytes of data beside what it has now: else a MemoryError.
+    """Within, this process has no more than ``more`` bytes beside what it had at first: else a MemoryError.
 
     What is allocated counts, whether it is used or not; a system that keeps no such account has no bound.
     """
@@ -17,7 +18,7 @@ def at_most(more: int) -> Iterator[None]:
 
         old = resource.getrlimit(resource.RLIMIT_DATA)
         # Threads of NumPy's take space by the number of cores, so the bound is on what comes beside them.
-        limit = psutil.Process().memory_info().data + more
+        limit = _at_first() + more
         limit = limit if old[1] == resource.RLIM_INFINITY else min(limit, old[1])
         resource.setrlimit(resource.RLIMIT_DATA, (limit, old[1]))
     except (ImportError, AttributeError, OSError, ValueError, psutil.Error):
@@ -28,3 +29,8 @@ def at_most(more: int) -> Iterator[None]:
     finally:
         with suppress(OSError, ValueError):
             resource.setrlimit(resource.RLIMIT_DATA, old)
+
+
+@cache
+def _at_first() -> int:
+    return int(psutil.Process().memory_info().data)

@@ -153,9 +153,10 @@ def read_one(student: str, path: Path, modules: Iterable[str] = tuple(COURSE)) -
 
 
 def _is_file_manager_s(name: str) -> bool:
-    # Its own files and folders are hidden ones; an archive is never one of those.
-    hidden = name.startswith(".") and (not archive_suffix(name) or name.startswith("._"))
-    return hidden or name in _IGNORED
+    # Its own files and folders are hidden ones. Archives and programs are never, nor is what begins with two dots.
+    work = bool(archive_suffix(name)) or name.lower().endswith((".py", ".ipynb"))
+    hidden = name.startswith(".") and not work and not name.startswith("..")
+    return hidden or name.startswith("._") or name in _IGNORED
 
 
 def _handed(path: Path, modules: tuple[str, ...]) -> tuple[tuple[str, str], _Handed]:

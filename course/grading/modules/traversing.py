@@ -242,7 +242,7 @@ TRAVERSE = function(
             "The numbers of tests are right",
             _counted,
             "a test for each box that the ray was held against, and for each triangle in the leaves that it meets",
-            "A leaf whose box is met costs as many tests as it holds triangles, and one whose box is missed costs none, "
+            "A leaf whose box is met costs as many tests as it holds triangles; one whose box is missed costs none, "
             "the root too where it is a leaf.",
             shows=lambda _, r: r[3],
             case=ray_scenes.counted,

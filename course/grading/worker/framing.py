@@ -18,8 +18,8 @@ from typing import Any, Literal
 import numpy as np
 
 LARGEST_HEAD = 1 << 20
-LARGEST = 1 << 26
-"""Bytes of a head, and of all arrays of a message together."""
+LARGEST = 1 << 24
+"""Bytes of a head, and of all arrays of a message together; those of the checks have 7 MB at the most."""
 
 MOST_ARRAYS = 4096
 DEEPEST = 8

@@ -168,6 +168,9 @@ class Process:
             return unpack(self._reader(deadline), generators=False)
         except BrokenMessage as error:
             raise self.lost(f"what it wrote is no reply ({error})") from None
+        except MemoryError:
+            # What is left of it in the pipe would be taken for the next reply.
+            raise self.lost("its reply is too large for the grader") from None
 
     def lost(self, why: str, gone: bool = False) -> StudentError:
         """The error of a process that can't be used any more, and is ended; with what has ended it, if it had.

@@ -241,3 +241,16 @@ def test_the_file_at_the_top_is_meant(tmp_path: Path) -> None:
     (tmp_path / "ada" / "old" / "motion_blur.py").write_bytes(b"pass")
     (found,) = find_submissions(tmp_path)
     assert found.sources == {"motion_blur": STUB}
+
+
+def test_names_that_begin_with_dots_are_left_out_only_where_they_are_a_programs(
+    tmp_path: Path,
+) -> None:
+    for name in ("...", "..x", ".git", "bob"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "motion_blur.py").write_text("def f(): pass\n", encoding="utf-8")
+    for name in (".py", ".DS_Store", "._bob.py"):
+        (tmp_path / name).write_text("def f(): pass\n", encoding="utf-8")
+    found = find_submissions(tmp_path)
+    assert len(found) == 4
+    assert [bool(one.trouble) for one in found if one.student.endswith("py")] == [True]
