@@ -271,6 +271,7 @@ DEPTH = {"ViewLayer.Depth.Z": np.ones((4, 6), np.float32)}
         (planes("", 3) | planes("side.", 2), None, 3),
         (planes("", 3) | planes("side.", 2), "side", 2),
         ({k.lower(): v for k, v in planes("Combined.", 1).items()}, None, 1),
+        (dict(zip(("red", "green", "blue"), planes("", 1).values(), strict=True)), None, 1),
         ({"a.R": np.ones((4, 6), np.float32)} | planes("b.", 2), None, 2),
     ],
 )
@@ -290,6 +291,44 @@ def test_several_layers_or_a_wrong_name_are_told(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(by_hand.png(GREY))
     with pytest.raises(SceneError, match="it has no layer 'c'; only an EXR file has layers"):
         read_picture(tmp_path / "a.png", layer="c")
+
+
+def vectors(prefix: str) -> dict[str, Array]:
+    return {f"{prefix}{axis}": np.full((4, 6), 9, np.float32) for axis in "XYZ"}
+
+
+@pytest.mark.parametrize(
+    ("channels", "told"),
+    [
+        (vectors(""), "channels X, Y, Z, not R, G and B, or Y; save colours as R, G and B"),
+        (vectors("ViewLayer.Normal."), r"channels ViewLayer\.Normal\.X, .*, not R, G and B"),
+        ({"R": np.ones((4, 6), np.float32)}, "channels R, not R, G and B, or Y; .* grey as Y"),
+    ],
+)
+def test_what_has_no_colours_is_refused_with_a_remedy(
+    tmp_path: Path, channels: dict[str, Array], told: str
+) -> None:
+    (tmp_path / "a.exr").write_bytes(by_hand.exr(channels))
+    with pytest.raises(SceneError, match=told):
+        read_picture(tmp_path / "a.exr")
+
+
+def test_vectors_beside_colours_are_no_layer_of_these(tmp_path: Path) -> None:
+    both = planes("Combined.", 2) | vectors("Normal.")
+    (tmp_path / "a.exr").write_bytes(by_hand.exr(both))
+    assert colour(read_picture(tmp_path / "a.exr")) == 2
+    with pytest.raises(
+        SceneError, match=r"its layer 'Normal' has the channels Normal\.X, .*, not R"
+    ):
+        read_picture(tmp_path / "a.exr", layer="Normal")
+
+
+@pytest.mark.parametrize("beside", [{}, {"Z": np.full((4, 6), 7, np.float32)}])
+def test_a_luminance_is_grey_with_a_depth_or_without(
+    tmp_path: Path, beside: dict[str, Array]
+) -> None:
+    (tmp_path / "a.exr").write_bytes(by_hand.exr({"Y": np.full((4, 6), 3, np.float32)} | beside))
+    assert (read_picture(tmp_path / "a.exr") == 3).all()
 
 
 def parts(path: Path, *listed: tuple[str, tuple[str, ...], float]) -> None:

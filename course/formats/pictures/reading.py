@@ -20,7 +20,7 @@ from course.formats.pictures.mending import Found, mend, parts_of, strips
 from course.formats.pictures.placing import in_display_window, orientation, upright
 from course.formats.pictures.png_colours import Coding, Transfer, coding_of
 from course.formats.pictures.primaries import to_rec709
-from course.formats.pictures.radiance import radiance_primaries
+from course.formats.pictures.radiance import radiance_header
 from course.inputs import LARGEST_DATA, MOST_PIXELS, Bound, opened, shown
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 LINEAR: Final = (".exr", ".hdr")
-"""Suffixes of the formats that hold radiance, up to a scale. A Radiance file's EXPOSURE is left alone, too."""
+"""Suffixes of the formats that hold radiance, up to a scale."""
 
 MAGIC: Final = (b"\x76\x2f\x31\x01", b"#?RADIANCE", b"#?RGBE")
 """The first bytes of their files."""
@@ -56,7 +56,8 @@ def read_picture(
 
     It stands upright as its orientation says, and covers its display window, black where it has no pixels. Primaries,
     curves and profiles of colours that it names are heeded. Values that are infinite or negative become the largest
-    that there is and 0, which one `CourseWarning` tells with their number.
+    that there is and 0, which one `CourseWarning` tells with their number. Values of a Radiance picture are divided by
+    its EXPOSURE and COLORCORR.
     On the way it takes little more memory than the picture that is returned and the file's own codes together.
     Raises SceneError: the file is missing, is no picture or is too large, has no such layer, or holds a value that is
     not a number.
@@ -204,24 +205,33 @@ def _read_linear(
     if not stream.read(max(map(len, MAGIC))).startswith(MAGIC):
         raise ValueError("it begins neither as EXR nor as HDR")
     stream.seek(0)
-    primaries = radiance_primaries(stream)
+    header = radiance_header(stream)
     file, spec = _open_linear(path)
     _check_size(spec.width, spec.height, most)
     chosen, spec, notes = choose(file, layer)
     _check_size(spec.width, spec.height, most)
     _check_size(spec.full_width, spec.full_height, most)
-    _check_linear(spec)
+    _check_linear(spec, header.turned)
     first, last = min(chosen.channels), max(chosen.channels) + 1
     pixels = file.read_image(chosen.part, 0, first, last, "float")
     if pixels is None:
-        raise ValueError(file.geterror())
+        old = (
+            path.suffix.lower() == ".hdr"
+            and "; it is cut short, or of the old run lengths: save it anew"
+        )
+        raise ValueError(f"{file.geterror()}{old or ''}")
     pixels = pixels.reshape(spec.height, spec.width, last - first)
     wanted = [channel - first for channel in chosen.channels]
     if wanted != list(range(last - first)):
         pixels = pixels[..., wanted]
     pixels = in_display_window(np.broadcast_to(pixels, (*pixels.shape[:2], 3)), spec)
-    picture = np.require(pixels, np.float32, ["C", "W"])
-    given = primaries or spec.getattribute("chromaticities")
+    picture = np.require(upright(pixels, header.turned), np.float32, ["C", "W"])
+    if (header.exposure != 1).any() and not codes:
+        values = " ".join(f"{value:g}" for value in dict.fromkeys(header.exposure.tolist()))
+        notes = [*notes, f"its values are divided by its EXPOSURE and COLORCORR, {values}"]
+        with np.errstate(over="ignore"):
+            np.divide(picture, header.exposure, out=picture, casting="same_kind")
+    given = header.primaries or spec.getattribute("chromaticities")
     if given is not None and not codes:
         try:
             matrix = to_rec709(given)
@@ -253,9 +263,11 @@ def _open_linear(path: Path) -> tuple[ImageInput, ImageSpec]:
     return file, file.spec()
 
 
-def _check_linear(spec: ImageSpec) -> None:
-    """Refuse what would be read as another picture than the file shows."""
+def _check_linear(spec: ImageSpec, turned: int) -> None:
+    """Refuse what would be read as another picture than the file shows; ``turned``: how it is known to be."""
     if str(spec.format) not in ("half", "float"):
         raise ValueError(f"its values are {spec.format}, not half or float")
-    if spec.get_int_attribute("Orientation", 1) != 1:
-        raise ValueError("its pixels don't run in rows from the upper left corner")
+    if turned == 1 and spec.get_int_attribute("Orientation", 1) != 1:
+        raise ValueError(
+            "its pixels don't run in rows from the upper left corner; open it in a picture editor, and save it anew"
+        )
