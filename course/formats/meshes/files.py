@@ -52,8 +52,8 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
     file's normals are its facets'; where they don't lie along these, they say nothing. A `CourseWarning` each tells
     what of the file is left out, and faces that cross themselves or have no area.
     Raises GeometryError, naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no
-    triangles, an index out of range, a vertex or a normal that is not finite and that a face has; in a PLY or OBJ file
-    a face of fewer than three corners. Of text the line is told.
+    triangles, an index out of range, a vertex or a uv that is not finite and that a face has; in a PLY or OBJ file
+    a face of fewer than three corners. Of text the line is told. Normals that are not finite are computed, and told.
 
     Parameters
     ----------
@@ -87,8 +87,10 @@ def read_named_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL
         except MemoryError as error:
             raise GeometryError(f"{file}: too large for this computer's memory") from error
         except Exception as error:
+            kind = path.suffix[1:].upper()
+            article = "an" if kind[0] in "OS" else "a"
             raise GeometryError(
-                f"{file}: not a {path.suffix[1:].upper()} file that can be read: {_reason(error)}"
+                f"{file}: not {article} {kind} file that can be read: {_reason(error)}"
             ) from error
     for note in dict.fromkeys(note for part in parts for note in part.notes):
         warnings.warn(f"{file}: {note}", CourseWarning, stacklevel=2)
