@@ -210,6 +210,63 @@ def test_a_profile_that_cannot_be_followed_is_told(tmp_path: Path) -> None:
         read_picture(tmp_path / "a.png")
 
 
+@pytest.mark.parametrize(("space", "told"), [(65535, True), (2, True), (1, False), (None, False)])
+def test_colours_that_exif_says_are_others_are_told(
+    tmp_path: Path, space: int | None, told: bool
+) -> None:
+    exif = Image.Exif()
+    exif.get_ifd(0x8769).update({} if space is None else {0xA001: space})
+    Image.new("RGB", (8, 8), (200, 120, 40)).save(tmp_path / "a.jpg", exif=exif)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        read_picture(tmp_path / "a.jpg")
+        read_picture(tmp_path / "a.jpg", codes=True)
+    assert ["aren't sRGB's by its Exif data" in str(each.message) for each in said] == [True] * told
+
+
+def alpha_of(kind: str, opaque: bool) -> bytes:
+    """A picture of 6 x 4 pixels of which one is half transparent, or whose alpha is 1 everywhere."""
+    codes = np.tile(np.array([200, 120, 40, 255], np.uint8), (4, 6, 1))
+    codes[2, 3] = 200, 120, 41, 255 if opaque else 128
+    if kind == "a colour":
+        return by_hand.png(
+            codes[..., :3], more={"tRNS": struct.pack(">3H", 200, 120, 50 - 9 * (not opaque))}
+        )
+    if kind == "a palette":
+        palette = np.array([(1, 2, 3), (4, 5, 6), (7, 8, 9)])
+        # Of its three entries the last, which is transparent, has a pixel or none.
+        places = np.zeros((4, 6, 1), np.uint8)
+        places[2, 3] = 1 if opaque else 2
+        return by_hand.png(places, palette=palette, more={"tRNS": bytes((255, 255, 0))})
+    if kind == "grey":
+        return by_hand.png(codes[..., 2:])
+    if kind == "16 bits":
+        return by_hand.png(codes.astype(int) * 257, 16)
+    file = io.BytesIO()
+    Image.fromarray(codes).save(file, kind, **({"lossless": True} if kind == "WEBP" else {}))
+    return file.getvalue()
+
+
+@pytest.mark.parametrize("opaque", [False, True])
+@pytest.mark.parametrize(
+    "kind", ["PNG", "WEBP", "TIFF", "TGA", "grey", "16 bits", "a palette", "a colour"]
+)
+def test_alpha_is_told_where_it_is_not_one(tmp_path: Path, kind: str, opaque: bool) -> None:
+    (tmp_path / "a").write_bytes(alpha_of(kind, opaque))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        read_picture(tmp_path / "a")
+    assert len(said) == (not opaque)
+    assert opaque or "its alpha is left out: all of it is opaque" in str(said[0].message)
+
+
+@pytest.mark.parametrize("magic", [b"II*\0", b"MM\0*", b"II+\0"])
+def test_a_tiff_that_is_not_read_is_not_called_another_file(tmp_path: Path, magic: bytes) -> None:
+    (tmp_path / "a.tif").write_bytes(magic + bytes(60))
+    with pytest.raises(SceneError, match="it is a TIFF, but not of whole numbers of 8 or 16 bits"):
+        read_picture(tmp_path / "a.tif")
+
+
 # ---------------------------------------------------------------- odd values
 
 

@@ -97,6 +97,7 @@ def test_every_code_of_8_bits_is_decoded_by_the_srgb_formula(read: Read) -> None
     assert picture[8, 0, 0] == pytest.approx(0.21586, abs=1e-5)
 
 
+@pytest.mark.filterwarnings("ignore:.*its alpha is left out")
 @pytest.mark.parametrize("channels", [1, 2, 3, 4])
 @pytest.mark.parametrize("bits", [8, 16])
 def test_png_of_any_channels_and_depth(read: Read, channels: int, bits: int) -> None:

@@ -14,10 +14,16 @@ import numpy as np
 
 from course.core.types import Floats32
 from course.errors import CourseWarning, SceneError
+from course.formats.pictures.alpha import see_through
 from course.formats.pictures.icc import in_srgb, is_srgb
 from course.formats.pictures.layers import choose
 from course.formats.pictures.mending import Found, mend, parts_of, strips
-from course.formats.pictures.placing import in_display_window, orientation, upright
+from course.formats.pictures.placing import (
+    in_display_window,
+    in_other_colours,
+    orientation,
+    upright,
+)
 from course.formats.pictures.png_colours import Coding, Transfer, coding_of
 from course.formats.pictures.primaries import to_rec709
 from course.formats.pictures.radiance import radiance_header
@@ -36,6 +42,9 @@ MAGIC: Final = (b"\x76\x2f\x31\x01", b"#?RADIANCE", b"#?RGBE")
 CODED: Final = ("PNG", "JPEG", "TIFF", "BMP", "GIF", "WEBP", "PPM", "TGA")
 """What Pillow is asked for; of its other formats some start programs, and most are drawings or films."""
 
+TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+"""First bytes of its files (TIFF 6.0, section 2; BigTIFF)."""
+
 FRAMES: Final = ("GIF", "WEBP", "TIFF", "PNG")
 """Formats that may have several pictures of which each is one to be looked at."""
 
@@ -52,7 +61,8 @@ def read_picture(
     codes: bool = False,
     layer: str | None = None,
 ) -> Floats32:
-    """A picture as linear RGB of Rec. 709; grey becomes RGB, and alpha is dropped.
+    """A picture as linear RGB of Rec. 709; grey becomes RGB. Alpha is dropped, and told in a
+    picture of codes.
 
     It stands upright as its orientation says, and covers its display window, black where it has no pixels. Primaries,
     curves and profiles of colours that it names are heeded. Values that are infinite or negative become the largest
@@ -111,9 +121,16 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> Fou
         deep = image.mode.startswith("I;16") or _is_deep_png(stream)
         if image.format != "TIFF" or not deep:
             turned = orientation(image)
+        if see_through(image):
+            notes.append("its alpha is left out: all of it is opaque")
         # Colours of numbers are none.
         coding = Coding() if codes else coding_of(stream)
         profile = None if codes else image.info.get("icc_profile")
+        if not codes and not profile and in_other_colours(image):
+            notes.append(
+                "its colours aren't sRGB's by its Exif data, such as Adobe RGB, but it has no profile: they are taken"
+                " for sRGB's; convert it to sRGB"
+            )
         if not deep:
             if profile:
                 image, told = in_srgb(image, profile)
@@ -144,6 +161,11 @@ def _opened(stream: BinaryIO) -> Image:
         try:
             return Image.open(stream, formats=CODED)
         except UnidentifiedImageError as error:
+            stream.seek(0)
+            if stream.read(4) in TIFF:
+                raise ValueError(
+                    "it is a TIFF, but not of whole numbers of 8 or 16 bits, or cut short; save it as such, or as EXR"
+                ) from error
             raise ValueError("it begins as none of " + ", ".join(CODED)) from error
         finally:
             Image.MAX_IMAGE_PIXELS = usual
