@@ -193,6 +193,21 @@ def test_uv_are_those_of_the_material_s_picture(
     np.testing.assert_allclose(mesh.uv[:2], [(u, 1 - v) for u, v in expected], atol=1e-12)
 
 
+def test_which_triangles_have_no_uv_beside_others(tmp_path: Path) -> None:
+    """A square with and one without, the second twice: of six triangles the last four."""
+    writer = Writer()
+    uv = writer.add(np.zeros((4, 2), "<f4"))
+    bare = dict(writer.primitive)
+    writer.primitive["attributes"] = writer.primitive["attributes"] | {"TEXCOORD_0": uv}
+    writer.header["meshes"].append({"primitives": [bare]})
+    as_nodes({"mesh": 0}, {"mesh": 1}, {"mesh": 1, "translation": [3, 0, 0]})(writer)
+    writer.header["scenes"] = [{"nodes": [0, 1, 2]}]
+    (tmp_path / "a.glb").write_bytes(writer.glb())
+    found = read_named_mesh(tmp_path / "a.glb").bare
+    assert found is not None
+    assert found.tolist() == [False] * 2 + [True] * 4
+
+
 def test_pictures_of_different_uv_are_told(tmp_path: Path) -> None:
     writer = Writer()
     writer.primitive["attributes"]["TEXCOORD_0"] = writer.add(np.zeros((4, 2), "<f4"))

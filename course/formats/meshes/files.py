@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.atomic import replacing
+from course.core.types import Mask
 from course.errors import CourseWarning, GeometryError
 from course.formats.meshes.beside import Beside
 from course.formats.meshes.checked import Weights, checked
@@ -109,7 +110,7 @@ def read_named_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL
         meshes = [mesh if mesh.normals is not None else _parted(mesh) for mesh in meshes]
     mesh = join(meshes)
     mesh = _merged(mesh) if path.suffix.lower() == ".stl" else mesh
-    return Named(mesh, *_names(parts))
+    return Named(mesh, *_names(parts), _bare(parts))
 
 
 def _names(parts: list[Part]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
@@ -125,6 +126,20 @@ def _names(parts: list[Part]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
             name = np.array([numbers[each] for each in part.names])[part.name]
         found += [name] * len(part.places)
     return tuple(numbers), np.concatenate(found).astype(np.intp)
+
+
+def _bare(parts: list[Part]) -> Mask | None:
+    """Which triangles of all parts have no uv though others have; None where none is so."""
+    without = [part.uv is None for part in parts]
+    if all(without) or not (any(without) or any(part.bare is not None for part in parts)):
+        return None
+    found = [
+        np.full(len(part.triangles), part.uv is None) if part.bare is None else part.bare
+        for part in parts
+    ]
+    return np.concatenate(
+        [np.tile(each, len(part.places)) for each, part in zip(found, parts, strict=True)]
+    )
 
 
 def ply_bytes(mesh: Mesh) -> bytes:

@@ -16,7 +16,7 @@ from typing import Final
 
 import numpy as np
 
-from course.core.types import Floats64, Indices
+from course.core.types import Floats64, Indices, Mask
 from course.formats.meshes.obj_corners import KINDS, Corners, Face, corners_of
 from course.formats.meshes.parts import (
     Part,
@@ -153,10 +153,17 @@ def parse_obj(data: bytes) -> list[Part]:
         replace(
             _part((v, vt, vn), corners, cuts.where, group),
             names=names,
+            bare=_bare(corners[1], cuts.where),
             name=None if name is None else np.repeat(np.array(name)[face], lengths - 2),
             notes=notes,
         )
     ]
+
+
+def _bare(at: Indices | None, where: Indices) -> Mask | None:
+    """Which triangles have no uv, though others have: a face has it at all corners or at none."""
+    bare = None if at is None else at[where[:, 0]] < 0
+    return bare if bare is not None and bare.any() else None
 
 
 def _part(
