@@ -1,5 +1,7 @@
 """From texture descriptions to what paints the objects."""
 
+import warnings
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -9,6 +11,7 @@ from course.building.materials import ambient_color, base_color, has_body
 from course.building.objects import object_mesh
 from course.core.types import Floats32, Floats64
 from course.effects import Bound
+from course.errors import CourseWarning
 from course.extras.painting import Paint
 from course.extras.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
 from course.formats.meshes import transforms
@@ -44,6 +47,15 @@ def places_function(thing: d.Object) -> str:
 
 FEWEST = 1e-6
 """Pixels of a picture along a unit of u or v; where it has fewer, it is the same all over."""
+
+UV = {
+    ".obj": "vt in an OBJ file",
+    ".ply": "properties u and v of the vertices of a PLY file",
+    ".glb": "TEXCOORD_0 in a glTF file",
+    ".gltf": "TEXCOORD_0 in a glTF file",
+    ".stl": "as an OBJ file, for STL has none",
+}
+"""What texture coordinates are called, by the suffix of a mesh file."""
 
 STEEPEST = 1e30
 """Heights beyond it, in sizes of the scene, are as good as infinite, and their squares are numbers still."""
@@ -192,15 +204,33 @@ class Painter:
 
     def _uv(self, number: int, mesh: Mesh, asked_by: KeyPath) -> Floats64:
         """Texture coordinates of a mesh as points (V, 3) whose third coordinate is 0."""
+        thing = self._loaded.description.objects[number]
+        what = str(asked_by[-1]).replace("_", " ")
         if mesh.uv is None:
-            thing = self._loaded.description.objects[number]
-            what = str(asked_by[-1]).replace("_", " ")
+            suffix = Path(thing.file).suffix.lower() if isinstance(thing, d.MeshFile) else ""
             raise self._loaded.document.error(
                 ("objects", number),
                 f'material "{thing.material}" has a {what}, but the mesh has no texture coordinates;'
-                " save it with some (vt in an OBJ file), or give it another material",
+                f" save it with some ({UV.get(suffix, UV['.obj'])}), or give it another material",
             )
+        if isinstance(thing, d.MeshFile):
+            self._warn_of_bare(thing, number, what)
         return np.pad(mesh.uv.astype(np.float64), ((0, 0), (0, 1)))
+
+    def _warn_of_bare(self, thing: d.MeshFile, number: int, what: str) -> None:
+        """Tell how many triangles have no texture coordinates, where others have some."""
+        found = self._files[f"{thing.normals} {thing.file}"]
+        bare = found.bare
+        if bare is not None and thing.only is not None:
+            bare = bare[np.isin(found.name, [found.names.index(name) for name in thing.only])]
+        if bare is not None and bare.any():
+            warnings.warn(
+                f"{self._loaded.document.where(('objects', number))}: {np.count_nonzero(bare):,} of the {len(bare):,}"
+                f" triangles of {thing.file} have no texture coordinates, and show one point of the {what}; give them"
+                " some, or another material",
+                CourseWarning,
+                stacklevel=2,
+            )
 
     def _own_coordinates(self, number: int) -> Floats64:
         """Vertices (V, 3) of a shape before it is transformed, its longest extent 2."""

@@ -9,6 +9,7 @@ from course.building.cameras import compile_lens, make_camera, make_window_camer
 from course.building.cutting import cut
 from course.building.environment import compile_environment
 from course.building.frame import Frame, bounds_of, in_range, in_reach
+from course.building.glass_meshes import warn_of_glass
 from course.building.gloss import (
     compile_lobes,
     compile_microfacets,
@@ -87,6 +88,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         start = shutter.start(thing.motion)
         meshes.append(_moved(mesh, start))
         boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
+    warn_of_glass(loaded, meshes)
     extents = extents_of_objects(bounds, boxes)
     lamps = extents_of_lamps(loaded, shutter, extents, meshes)
     frame, things, small = frame_for(extents + lamps, len(bounds))

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from course import SceneError, render
 from course.cluster.parcel import pack, unpack
 from course.effects import PROJECT
+from course.errors import CourseWarning
 from course.formats.pictures.files import save
 from course.formats.pictures.reading import read_picture
 from tests.conftest import MakeScene
@@ -359,6 +360,42 @@ def test_a_mesh_without_places_is_refused(
     message = refused(make_scene, checker, {"shape": "mesh", "file": "bare.obj"})
     assert "objects[0]" in message
     assert "no texture coordinates" in message
+
+
+@pytest.mark.parametrize(
+    ("suffix", "told"), [("obj", "vt in an OBJ"), ("ply", "properties u and v")]
+)
+def test_places_are_called_as_the_file_calls_them(
+    make_scene: MakeScene, tmp_path: Path, checker: str, suffix: str, told: str
+) -> None:
+    ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    ply += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    content = {
+        "obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "ply": f"{ply}0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+    }
+    (tmp_path / f"bare.{suffix}").write_text(content[suffix], encoding="utf-8")
+    assert told in refused(make_scene, checker, {"shape": "mesh", "file": f"bare.{suffix}"})
+
+
+# Three triangles, of which the first two have no places; their materials are a, b and b.
+SOME_BARE = (
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+    "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\nf 1/1 2/2 4/3\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("only", "told"), [(None, "2 of the 3"), (["a"], "1 of the 1"), (["b"], "1 of the 2")]
+)
+def test_triangles_without_places_beside_others_are_told(
+    make_scene: MakeScene, tmp_path: Path, checker: str, only: list[str] | None, told: str
+) -> None:
+    (tmp_path / "some.obj").write_text(SOME_BARE, encoding="utf-8")
+    thing = {"shape": "mesh", "file": "some.obj", "material": "painted"}
+    thing |= {"only": ["a", "b"] if only is None else only}
+    with pytest.warns(CourseWarning, match=rf":\d+: {told} triangles of some.obj have no texture"):
+        make_scene(materials={"painted": {"texture": {"image": checker}}}, objects=[thing])
 
 
 def test_another_machine_gets_the_pictures_too(

@@ -157,6 +157,80 @@ def test_uv_of_whole_numbers_and_v_upwards(tmp_path: Path) -> None:
     np.testing.assert_allclose(mesh.uv, [(0, 1), (1, 1), (1, 0), (0, 0.8)], atol=1e-12)
 
 
+HALF = math.sqrt(0.5)
+
+
+@pytest.mark.parametrize(
+    ("picture", "expected"),
+    [
+        ({}, [(0, 0.25), (1, 0.25)]),
+        ({"texCoord": 1}, [(0.5, 1), (0, 0)]),
+        # By hand: offset + R (scale * uv), and R turns (1, 0) to (0, -1), which is up as v runs down.
+        ({"offset": [0.125, 0.5]}, [(0.125, 0.75), (1.125, 0.75)]),
+        ({"scale": [4, 2]}, [(0, 0.5), (4, 0.5)]),
+        ({"rotation": math.pi / 2}, [(0.25, 0), (0.25, -1)]),
+        ({"rotation": math.pi / 4, "scale": [2, 4]}, [(HALF, HALF), (3 * HALF, -HALF)]),
+        ({"texCoord": 1, "scale": [3, 1], "offset": [0, 5]}, [(1.5, 6), (0, 5)]),
+    ],
+)
+@pytest.mark.parametrize("texture", ["baseColorTexture", "normalTexture"])
+def test_uv_are_those_of_the_material_s_picture(
+    tmp_path: Path, picture: dict[str, Any], expected: list[tuple[float, float]], texture: str
+) -> None:
+    writer = Writer()
+    for name, (first, second) in {
+        "TEXCOORD_0": ((0, 0.25), (1, 0.25)),
+        "TEXCOORD_1": ((0.5, 1), (0, 0)),
+    }.items():
+        uv = np.array([first, second, first, second], "<f4")
+        writer.primitive["attributes"][name] = writer.add(uv)
+    given = {"index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform": picture}}
+    base = texture == "baseColorTexture"
+    material = {"pbrMetallicRoughness": {texture: given}} if base else {texture: given}
+    writer.header |= {"materials": [material], "extensionsRequired": ["KHR_texture_transform"]}
+    writer.primitive["material"] = 0
+    mesh = read(writer, tmp_path)
+    np.testing.assert_allclose(mesh.uv[:2], [(u, 1 - v) for u, v in expected], atol=1e-12)
+
+
+def test_which_triangles_have_no_uv_beside_others(tmp_path: Path) -> None:
+    """A square with and one without, the second twice: of six triangles the last four."""
+    writer = Writer()
+    uv = writer.add(np.zeros((4, 2), "<f4"))
+    bare = dict(writer.primitive)
+    writer.primitive["attributes"] = writer.primitive["attributes"] | {"TEXCOORD_0": uv}
+    writer.header["meshes"].append({"primitives": [bare]})
+    as_nodes({"mesh": 0}, {"mesh": 1}, {"mesh": 1, "translation": [3, 0, 0]})(writer)
+    writer.header["scenes"] = [{"nodes": [0, 1, 2]}]
+    (tmp_path / "a.glb").write_bytes(writer.glb())
+    found = read_named_mesh(tmp_path / "a.glb").bare
+    assert found is not None
+    assert found.tolist() == [False] * 2 + [True] * 4
+
+
+def test_pictures_of_different_uv_are_told(tmp_path: Path) -> None:
+    writer = Writer()
+    writer.primitive["attributes"]["TEXCOORD_0"] = writer.add(np.zeros((4, 2), "<f4"))
+    writer.primitive["material"] = 0
+    color = {"baseColorTexture": {"index": 0, "texCoord": 1}}
+    writer.header["materials"] = [{"pbrMetallicRoughness": color, "normalTexture": {"index": 1}}]
+    with (
+        pytest.warns(CourseWarning, match="'material 0' have different texture coordinates"),
+        pytest.warns(CourseWarning, match="no TEXCOORD_1, which its material asks for: TEXCOORD_0"),
+    ):
+        assert (read(writer, tmp_path).uv == (0, 1)).all()
+
+
+@pytest.mark.parametrize("scale", [[0, 0, 0], [0, 1, 0]])
+def test_a_node_of_which_nothing_is_left_is_not_there(tmp_path: Path, scale: list[float]) -> None:
+    writer = Writer()
+    writer.header["nodes"].append({"mesh": 0, "scale": scale, "translation": [5, 5, 5]})
+    writer.header["scenes"] = [{"nodes": [0, 1]}]
+    mesh = read(writer, tmp_path)
+    assert area(mesh) == 1
+    assert bounds(mesh) == [[0, 0, 0], [1, 1, 0]]
+
+
 @pytest.mark.parametrize(
     ("mode", "order"), [(4, [0, 1, 2, 0, 2, 3]), (5, [0, 1, 3, 2]), (6, [1, 2, 3, 0])]
 )
@@ -337,6 +411,13 @@ TOLD: dict[str, tuple[Change, str]] = {
         lambda w: w.primitive["attributes"].update(COLOR_0=1),
         "colours of its vertices are left out",
     ),
+    "alpha": (
+        lambda w: (
+            w.header.update(materials=[{"name": "leaf", "alphaMode": "MASK"}]),
+            w.primitive.update(material=0),
+        ),
+        "alpha of its material 'leaf' is left out",
+    ),
     "two scenes": (lambda w: w.header["scenes"].append({}), "of its 2 scenes number 0 is shown"),
 }
 
@@ -372,6 +453,11 @@ REFUSED: dict[str, tuple[Change, str]] = {
         "it needs ACME_bones, which isn't read here; export it without that extension",
     ),
     "version": (lambda w: w.header.update(asset={"version": "1.0"}), "glTF of version 1.0: expect"),
+    "version 1": (
+        # There meshes have names instead of numbers.
+        lambda w: w.header.update(asset={"version": "1.0"}, meshes={"a": {}}),
+        "glTF of version 1: expected 2.0; convert it",
+    ),
     "least version": (
         lambda w: w.header.update(asset={"version": "2.0", "minVersion": "2.9"}),
         "version 2.9: expected 2.0",

@@ -100,6 +100,15 @@ REFUSED: dict[str, tuple[str, str]] = {
         "v 0 0 0\nv 1_0 0 0\nv 0 1 0\nf 1 2 3\n",
         "line 2: '1_0' is no number",
     ),
+    "an infinity of old": ("v 0 0 0\nv 1 0 1.#INF\nv 0 1 0\nf 1 2 3\n", "line 2: '1.#INF' is no"),
+    "no number": (
+        "# a\nv 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n",
+        "line 4: v 0 1 nan: expected finite",
+    ),
+    "uv of no number": (
+        V + "vt 0 0\nvt 0 inf\nf 1/1 2/1 3/2\n",
+        "line 7: vt 0 inf: expected finite numbers",
+    ),
     "nothing after vt": (V + "vt\nf 1 2 3\n", "line 6: 0 numbers after vt: expected 2, u v"),
 }
 
@@ -122,6 +131,7 @@ READ: dict[str, tuple[str, list[list[int]]]] = {
     "v//": (V + "f 1// 2// 3//\n", [[1, 2, 3]]),
     "v/vt/": (V + VT + "f 1/1/ 2/2/ 3/3/\n", [[1, 2, 3]]),
     "a sign": (V + "f +1 2 3\n", [[1, 2, 3]]),
+    "comments": ("# f 1 2 5\n" + V + "  # f 1 2 4\nf 1 2 3 # 4\n#f 1 2 4", [[1, 2, 3]]),
     "a quad": (V + "f 1 2 3 4\n", [[1, 2, 3], [1, 3, 4]]),
     "six corners after three with uv": (
         V + VT + "f 1/1 2/2 3/3\nf 1 2 2 3 4 4\n",

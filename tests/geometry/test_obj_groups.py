@@ -199,3 +199,13 @@ def test_text_of_any_mark_is_read(tmp_path: Path, encoding: str) -> None:
         (tmp_path / name).write_bytes((mark + text).encode(encoding))
         mesh = read_mesh(tmp_path / name)
         assert mesh.vertices[mesh.triangles].sum(axis=1).tolist() == [[1, 1, 0]]
+
+
+def test_names_of_other_programs_are_read(tmp_path: Path) -> None:
+    """Latin-1 where it is no UTF-8; and a # within a word begins no comment."""
+    text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Wände#2\nf 1 2 3\n"
+    names = []
+    for content in (text.encode("latin-1"), text.encode("utf-8"), text.encode("utf-16")):
+        (tmp_path / "a.obj").write_bytes(content)
+        names.append(read_named_mesh(tmp_path / "a.obj").names)
+    assert names == [("Wände#2",)] * 3

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from course.errors import GeometryError
-from course.formats.meshes.files import read_mesh
+from course.formats.meshes.files import read_mesh, read_named_mesh
 from course.shapes.mesh import Mesh
 
 ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
@@ -188,6 +188,20 @@ READ: dict[str, Case] = {
         ONE,
         ONE,
     ),
+    **{
+        f"uv called {u}": (
+            (
+                with_more(f"float {u}", f"float {v}", values=[point[:2] for point in SQUARE]),
+                faces([CORNERS], [QUAD]),
+            ),
+            FANNED,
+            FANNED,
+        )
+        for u, v in (
+            *(("texture_u", "texture_v"), ("texture_s", "texture_t"), ("tu", "tv")),
+            *(("texcoord_u", "texcoord_v"), ("u0", "v0"), ("s0", "t0")),
+        )
+    },
     "uv of vertices beside empty ones of faces": (
         (
             with_more("float u", "float v", values=[point[:2] for point in SQUARE]),
@@ -284,3 +298,12 @@ def test_text_says_no_more_than_its_types(tmp_path: Path, order: str) -> None:
         faces([CORNERS], [QUAD]),
     )
     assert mesh.vertices[0, 0] == float(np.float32(0.1))
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_which_triangles_have_no_uv_beside_others(tmp_path: Path, order: str) -> None:
+    rows = faces([CORNERS, UV], [QUAD, UV4], [QUAD, ()], [TRIANGLE, UV3])
+    (tmp_path / "mesh.ply").write_bytes(ply(order, VERTICES, rows))
+    bare = read_named_mesh(tmp_path / "mesh.ply").bare
+    assert bare is not None
+    assert bare.tolist() == [False, False, True, True, False]

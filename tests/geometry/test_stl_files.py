@@ -59,8 +59,17 @@ def test_bytes_behind_the_last_triangle_are_told(tmp_path: Path, head: bytes) ->
     np.testing.assert_array_equal(mesh.vertices[mesh.triangles], TRIANGLES)
 
 
-def test_colours_of_a_binary_file_are_told(tmp_path: Path) -> None:
-    (tmp_path / "plate.stl").write_bytes(binary(b"COLOR=\xff\x00\x00\xff"))
+@pytest.mark.parametrize(
+    "content",
+    [
+        binary(b"COLOR=\xff\x00\x00\xff"),
+        # The last byte of the second triangle: a colour is there.
+        binary()[:-1] + b"\x80",
+        text().replace("facet normal", "color 1 0 0\nfacet normal", 1).encode(),
+    ],
+)
+def test_colours_of_a_file_are_told(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "plate.stl").write_bytes(content)
     with pytest.warns(CourseWarning, match="its colours are left out"):
         assert len(read_mesh(tmp_path / "plate.stl").triangles) == 2
 

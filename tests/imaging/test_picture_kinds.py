@@ -210,6 +210,63 @@ def test_a_profile_that_cannot_be_followed_is_told(tmp_path: Path) -> None:
         read_picture(tmp_path / "a.png")
 
 
+@pytest.mark.parametrize(("space", "told"), [(65535, True), (2, True), (1, False), (None, False)])
+def test_colours_that_exif_says_are_others_are_told(
+    tmp_path: Path, space: int | None, told: bool
+) -> None:
+    exif = Image.Exif()
+    exif.get_ifd(0x8769).update({} if space is None else {0xA001: space})
+    Image.new("RGB", (8, 8), (200, 120, 40)).save(tmp_path / "a.jpg", exif=exif)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        read_picture(tmp_path / "a.jpg")
+        read_picture(tmp_path / "a.jpg", codes=True)
+    assert ["aren't sRGB's by its Exif data" in str(each.message) for each in said] == [True] * told
+
+
+def alpha_of(kind: str, opaque: bool) -> bytes:
+    """A picture of 6 x 4 pixels of which one is half transparent, or whose alpha is 1 everywhere."""
+    codes = np.tile(np.array([200, 120, 40, 255], np.uint8), (4, 6, 1))
+    codes[2, 3] = 200, 120, 41, 255 if opaque else 128
+    if kind == "a colour":
+        return by_hand.png(
+            codes[..., :3], more={"tRNS": struct.pack(">3H", 200, 120, 50 - 9 * (not opaque))}
+        )
+    if kind == "a palette":
+        palette = np.array([(1, 2, 3), (4, 5, 6), (7, 8, 9)])
+        # Of its three entries the last, which is transparent, has a pixel or none.
+        places = np.zeros((4, 6, 1), np.uint8)
+        places[2, 3] = 1 if opaque else 2
+        return by_hand.png(places, palette=palette, more={"tRNS": bytes((255, 255, 0))})
+    if kind == "grey":
+        return by_hand.png(codes[..., 2:])
+    if kind == "16 bits":
+        return by_hand.png(codes.astype(int) * 257, 16)
+    file = io.BytesIO()
+    Image.fromarray(codes).save(file, kind, **({"lossless": True} if kind == "WEBP" else {}))
+    return file.getvalue()
+
+
+@pytest.mark.parametrize("opaque", [False, True])
+@pytest.mark.parametrize(
+    "kind", ["PNG", "WEBP", "TIFF", "TGA", "grey", "16 bits", "a palette", "a colour"]
+)
+def test_alpha_is_told_where_it_is_not_one(tmp_path: Path, kind: str, opaque: bool) -> None:
+    (tmp_path / "a").write_bytes(alpha_of(kind, opaque))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        read_picture(tmp_path / "a")
+    assert len(said) == (not opaque)
+    assert opaque or "its alpha is left out: all of it is opaque" in str(said[0].message)
+
+
+@pytest.mark.parametrize("magic", [b"II*\0", b"MM\0*", b"II+\0"])
+def test_a_tiff_that_is_not_read_is_not_called_another_file(tmp_path: Path, magic: bytes) -> None:
+    (tmp_path / "a.tif").write_bytes(magic + bytes(60))
+    with pytest.raises(SceneError, match="it is a TIFF, but not of whole numbers of 8 or 16 bits"):
+        read_picture(tmp_path / "a.tif")
+
+
 # ---------------------------------------------------------------- odd values
 
 
@@ -271,6 +328,7 @@ DEPTH = {"ViewLayer.Depth.Z": np.ones((4, 6), np.float32)}
         (planes("", 3) | planes("side.", 2), None, 3),
         (planes("", 3) | planes("side.", 2), "side", 2),
         ({k.lower(): v for k, v in planes("Combined.", 1).items()}, None, 1),
+        (dict(zip(("red", "green", "blue"), planes("", 1).values(), strict=True)), None, 1),
         ({"a.R": np.ones((4, 6), np.float32)} | planes("b.", 2), None, 2),
     ],
 )
@@ -290,6 +348,44 @@ def test_several_layers_or_a_wrong_name_are_told(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(by_hand.png(GREY))
     with pytest.raises(SceneError, match="it has no layer 'c'; only an EXR file has layers"):
         read_picture(tmp_path / "a.png", layer="c")
+
+
+def vectors(prefix: str) -> dict[str, Array]:
+    return {f"{prefix}{axis}": np.full((4, 6), 9, np.float32) for axis in "XYZ"}
+
+
+@pytest.mark.parametrize(
+    ("channels", "told"),
+    [
+        (vectors(""), "channels X, Y, Z, not R, G and B, or Y; save colours as R, G and B"),
+        (vectors("ViewLayer.Normal."), r"channels ViewLayer\.Normal\.X, .*, not R, G and B"),
+        ({"R": np.ones((4, 6), np.float32)}, "channels R, not R, G and B, or Y; .* grey as Y"),
+    ],
+)
+def test_what_has_no_colours_is_refused_with_a_remedy(
+    tmp_path: Path, channels: dict[str, Array], told: str
+) -> None:
+    (tmp_path / "a.exr").write_bytes(by_hand.exr(channels))
+    with pytest.raises(SceneError, match=told):
+        read_picture(tmp_path / "a.exr")
+
+
+def test_vectors_beside_colours_are_no_layer_of_these(tmp_path: Path) -> None:
+    both = planes("Combined.", 2) | vectors("Normal.")
+    (tmp_path / "a.exr").write_bytes(by_hand.exr(both))
+    assert colour(read_picture(tmp_path / "a.exr")) == 2
+    with pytest.raises(
+        SceneError, match=r"its layer 'Normal' has the channels Normal\.X, .*, not R"
+    ):
+        read_picture(tmp_path / "a.exr", layer="Normal")
+
+
+@pytest.mark.parametrize("beside", [{}, {"Z": np.full((4, 6), 7, np.float32)}])
+def test_a_luminance_is_grey_with_a_depth_or_without(
+    tmp_path: Path, beside: dict[str, Array]
+) -> None:
+    (tmp_path / "a.exr").write_bytes(by_hand.exr({"Y": np.full((4, 6), 3, np.float32)} | beside))
+    assert (read_picture(tmp_path / "a.exr") == 3).all()
 
 
 def parts(path: Path, *listed: tuple[str, tuple[str, ...], float]) -> None:

@@ -17,7 +17,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from course.errors import SceneError
+from course.errors import CourseWarning, SceneError
 from course.formats.pictures.files import save
 from course.formats.pictures.reading import read_picture
 from course.inputs import Bound
@@ -97,6 +97,7 @@ def test_every_code_of_8_bits_is_decoded_by_the_srgb_formula(read: Read) -> None
     assert picture[8, 0, 0] == pytest.approx(0.21586, abs=1e-5)
 
 
+@pytest.mark.filterwarnings("ignore:.*its alpha is left out")
 @pytest.mark.parametrize("channels", [1, 2, 3, 4])
 @pytest.mark.parametrize("bits", [8, 16])
 def test_png_of_any_channels_and_depth(read: Read, channels: int, bits: int) -> None:
@@ -274,8 +275,8 @@ def test_hdr_is_mantissa_times_two_to_the_exponent(
     [
         {"magic": "#?RGBE"},
         {"header": "# Made by hand\nSOFTWARE=none\nEXPOSURE=          1.0000000000000\n"},
-        # The file's own scale and colour correction are left alone: `scale` is in the scene file.
-        {"header": "EXPOSURE=2.5\n"},
+        # Indented, it is told of another picture, from which this one was made.
+        {"header": "\tEXPOSURE=77\n# EXPOSURE=9\n"},
     ],
 )
 def test_hdr_headers_that_change_nothing(read: Read, options: dict[str, str]) -> None:
@@ -285,12 +286,50 @@ def test_hdr_headers_that_change_nothing(read: Read, options: dict[str, str]) ->
     assert (picture == by_hand.radiance_values(given)).all()
 
 
-@pytest.mark.parametrize("size", ["+Y 4 +X 64", "-Y 4 -X 64", "+Y 4 -X 64", "+X 64 -Y 4"])
-def test_hdr_that_runs_another_way_is_refused(
-    refusal: Callable[[str, bytes], str], size: str
+@pytest.mark.parametrize(
+    ("header", "divisor"),
+    [
+        # Ward: radiance is the value over all of them multiplied together.
+        ("EXPOSURE=2.0\nEXPOSURE=  4\n", (8, 8, 8)),
+        ("COLORCORR= 2 1 .5\nEXPOSURE=2\n", (4, 2, 1)),
+    ],
+)
+def test_hdr_of_another_exposure_is_divided_by_it(
+    tmp_path: Path, header: str, divisor: tuple[float, ...]
 ) -> None:
-    content = by_hand.radiance(mantissas_and_exponents(), size=size)
-    assert "rows from the upper left corner" in refusal("a.hdr", content)
+    given = np.tile(np.array([128, 64, 32, 132]), (4, 8, 1))  # 8, 4, 2
+    (tmp_path / "a.hdr").write_bytes(by_hand.radiance(given, header=header))
+    with pytest.warns(CourseWarning, match="its values are divided by its EXPOSURE and COLORCORR"):
+        picture = read_picture(tmp_path / "a.hdr")
+    assert (picture == np.array((8, 4, 2)) / divisor).all()
+    assert (read_picture(tmp_path / "a.hdr", codes=True) == (8, 4, 2)).all()
+
+
+@pytest.mark.parametrize("line", ["EXPOSURE=0", "EXPOSURE=bright", "COLORCORR=1 2", "PRIMARIES=1"])
+def test_hdr_lines_without_their_numbers_are_refused(
+    refusal: Callable[[str, bytes], str], line: str
+) -> None:
+    told = refusal("a.hdr", by_hand.radiance(mantissas_and_exponents(), header=f"{line}\n"))
+    assert f"its {line.partition('=')[0]} is b'" in told
+
+
+SIZES = "-Y 6 +X 9, -Y 6 -X 9, +Y 6 -X 9, +Y 6 +X 9, +X 9 -Y 6, -X 9 -Y 6, -X 9 +Y 6, +X 9 +Y 6"
+
+
+@pytest.mark.parametrize("size", SIZES.split(", "))
+def test_hdr_pixels_lie_where_its_axes_say(read: Read, size: str) -> None:
+    slow, rows, fast, columns = size.split()
+    stored = np.zeros((int(rows), int(columns), 4), int)
+    for i, j in np.ndindex(stored.shape[:2]):
+        place = dict(zip((slow, fast), (i, j), strict=True))
+        # Y runs upwards.
+        x = place["+X"] if "+X" in place else 8 - place["-X"]
+        y = place["-Y"] if "-Y" in place else 5 - place["+Y"]
+        stored[i, j] = 128 + x, 128 + y, 128, 136
+    picture = read("a.hdr", by_hand.radiance(stored, run_lengths=False, size=size))
+    assert picture.shape == (6, 9, 3)
+    assert (picture[..., 0] == 128 + np.arange(9)).all()
+    assert (picture[..., 1] == 128 + np.arange(6)[:, None]).all()
 
 
 def test_hdr_in_other_primaries_is_refused(refusal: Callable[[str, bytes], str]) -> None:

@@ -99,7 +99,18 @@ def _normals(name: str, part: Part, count: int) -> tuple[NDArray[np.float64], ND
     normals = np.array(part.normals, np.float64)
     if normals.shape != (count, 3):
         raise GeometryError(f"{name}: {len(normals)} normals for {count} vertices")
-    _without_odd_rows(name, "normal", normals, part.triangles)
+    odd = ~np.isfinite(normals).all(axis=1)
+    if odd.any():
+        normals[odd] = 0.0
+        used = np.zeros(count, bool)
+        used[part.triangles] = True
+        if (odd & used).any():
+            warnings.warn(
+                f"{name}: {np.count_nonzero(odd & used):,} of {count:,} normals are not numbers, and are computed from"
+                " the faces instead",
+                CourseWarning,
+                stacklevel=2,
+            )
     return unit(normals), np.asarray(normals.any(axis=1, keepdims=True))
 
 

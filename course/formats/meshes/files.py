@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.atomic import replacing
+from course.core.types import Mask
 from course.errors import CourseWarning, GeometryError
 from course.formats.meshes.beside import Beside
 from course.formats.meshes.checked import Weights, checked
@@ -52,8 +53,8 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
     file's normals are its facets'; where they don't lie along these, they say nothing. A `CourseWarning` each tells
     what of the file is left out, and faces that cross themselves or have no area.
     Raises GeometryError, naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no
-    triangles, an index out of range, a vertex or a normal that is not finite and that a face has; in a PLY or OBJ file
-    a face of fewer than three corners. Of text the line is told.
+    triangles, an index out of range, a vertex or a uv that is not finite and that a face has; in a PLY or OBJ file
+    a face of fewer than three corners. Of text the line is told. Normals that are not finite are computed, and told.
 
     Parameters
     ----------
@@ -87,8 +88,10 @@ def read_named_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL
         except MemoryError as error:
             raise GeometryError(f"{file}: too large for this computer's memory") from error
         except Exception as error:
+            kind = path.suffix[1:].upper()
+            article = "an" if kind[0] in "OS" else "a"
             raise GeometryError(
-                f"{file}: not a {path.suffix[1:].upper()} file that can be read: {_reason(error)}"
+                f"{file}: not {article} {kind} file that can be read: {_reason(error)}"
             ) from error
     for note in dict.fromkeys(note for part in parts for note in part.notes):
         warnings.warn(f"{file}: {note}", CourseWarning, stacklevel=2)
@@ -107,7 +110,7 @@ def read_named_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL
         meshes = [mesh if mesh.normals is not None else _parted(mesh) for mesh in meshes]
     mesh = join(meshes)
     mesh = _merged(mesh) if path.suffix.lower() == ".stl" else mesh
-    return Named(mesh, *_names(parts))
+    return Named(mesh, *_names(parts), _bare(parts))
 
 
 def _names(parts: list[Part]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
@@ -123,6 +126,20 @@ def _names(parts: list[Part]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
             name = np.array([numbers[each] for each in part.names])[part.name]
         found += [name] * len(part.places)
     return tuple(numbers), np.concatenate(found).astype(np.intp)
+
+
+def _bare(parts: list[Part]) -> Mask | None:
+    """Which triangles of all parts have no uv though others have; None where none is so."""
+    without = [part.uv is None for part in parts]
+    if all(without) or not (any(without) or any(part.bare is not None for part in parts)):
+        return None
+    found = [
+        np.full(len(part.triangles), part.uv is None) if part.bare is None else part.bare
+        for part in parts
+    ]
+    return np.concatenate(
+        [np.tile(each, len(part.places)) for each, part in zip(found, parts, strict=True)]
+    )
 
 
 def ply_bytes(mesh: Mesh) -> bytes:

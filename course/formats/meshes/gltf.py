@@ -21,8 +21,9 @@ from course.errors import CourseError
 from course.formats.meshes.beside import Beside
 from course.formats.meshes.gltf_data import Data, item
 from course.formats.meshes.gltf_json import Node, Primitive, read_root
+from course.formats.meshes.gltf_looks import name_of
 from course.formats.meshes.gltf_nodes import Tree, placed, tree_of
-from course.formats.meshes.gltf_shapes import Joints, name_of, part_of
+from course.formats.meshes.gltf_shapes import Joints, part_of
 from course.formats.meshes.parts import Part
 from course.inputs import LARGEST_DATA, Bound, read_input
 
@@ -141,7 +142,7 @@ def _part(
 def _shown(data: Data, tree: Tree) -> Iterator[tuple[int, list[float], Joints | None, Floats64]]:
     """Meshes of the scene's nodes with weights and joints, and all matrices (K, 4, 4) with which each is there."""
     nodes = data.root.nodes
-    places: dict[tuple[int, tuple[float, ...]], list[Floats64]] = {}
+    places: dict[tuple[int, tuple[float, ...]], list[tuple[int, Floats64]]] = {}
     for number in np.flatnonzero(tree.shown).tolist():
         node = nodes[number]
         if node.mesh is None:
@@ -157,9 +158,25 @@ def _shown(data: Data, tree: Tree) -> Iterator[tuple[int, list[float], Joints | 
         own = tree.matrices[number][None]
         if INSTANCING in node.extensions:
             own = own @ _instances(data, node)
-        places.setdefault((node.mesh, tuple(weights)), []).append(own)
-    for (mesh, of), matrices in places.items():
-        yield mesh, list(of), None, np.concatenate(matrices)
+        places.setdefault((node.mesh, tuple(weights)), []).append((number, own))
+    for (mesh, of), listed in places.items():
+        if len(matrices := _with_area(listed)):
+            yield mesh, list(of), None, matrices
+
+
+def _with_area(listed: list[tuple[int, Floats64]]) -> Floats64:
+    """The matrices (K, 4, 4) of nodes that leave faces an area; ValueError for a node that makes its mesh flat."""
+    matrices = np.concatenate([own for _, own in listed])
+    rows = matrices[:, :3, :3]
+    # A scale of 0 in all directions, or in two, is how programs hide a node: no point or line is seen.
+    hidden = ~np.cross(rows, np.roll(rows, -1, axis=1)).any(axis=(1, 2))
+    flat = ~hidden & (np.linalg.slogdet(rows).sign == 0)
+    if flat.any():
+        number = np.repeat([k for k, _ in listed], [len(own) for _, own in listed])[np.argmax(flat)]
+        raise ValueError(
+            f"node {number}: its matrix can't be inverted, and flattens its mesh; give it another scale than 0"
+        )
+    return matrices[~hidden]
 
 
 def _instances(data: Data, node: Node) -> Floats64:

@@ -1,6 +1,6 @@
 """The JSON of glTF 2.0, so far as it says which triangles there are and where; and which extensions are heeded.
 
-Whatever else a file holds, such as materials, lights and cameras, a scene file says by itself.
+Whatever else a file holds, such as lights, cameras and most of its materials, a scene file says by itself.
 """
 
 from typing import Annotated, Any, Final
@@ -10,13 +10,17 @@ import msgspec
 from course.inputs import without_marks
 
 HEEDED: Final = frozenset(
-    ("KHR_mesh_quantization", "EXT_mesh_gpu_instancing", "KHR_node_visibility")
+    (
+        "KHR_mesh_quantization",
+        "EXT_mesh_gpu_instancing",
+        "KHR_node_visibility",
+        "KHR_texture_transform",
+    )
 )
-"""Extensions of geometry that are read."""
+"""Extensions of geometry, or of places on pictures, that are read."""
 
 OF_LOOKS: Final = frozenset(
     (
-        "KHR_texture_transform",
         "KHR_texture_basisu",
         "EXT_texture_webp",
         "EXT_texture_avif",
@@ -50,10 +54,40 @@ Three = tuple[float, float, float]
 Extensions = dict[str, Any]
 
 
-class Named(msgspec.Struct, frozen=True):
-    """A material."""
+class TextureOf(msgspec.Struct, frozen=True):
+    """A picture of a material."""
+
+    texCoord: Index = 0  # noqa: N815
+    extensions: Extensions = {}
+
+
+class Metal(msgspec.Struct, frozen=True):
+    """A material's colour, by pictures."""
+
+    baseColorTexture: TextureOf | None = None  # noqa: N815
+    metallicRoughnessTexture: TextureOf | None = None  # noqa: N815
+
+
+class Material(msgspec.Struct, frozen=True):
+    """A material, so far as geometry needs it."""
 
     name: str = ""
+    alphaMode: str = "OPAQUE"  # noqa: N815
+    pbrMetallicRoughness: Metal = Metal()  # noqa: N815
+    normalTexture: TextureOf | None = None  # noqa: N815
+    emissiveTexture: TextureOf | None = None  # noqa: N815
+    occlusionTexture: TextureOf | None = None  # noqa: N815
+
+    def pictures(self) -> tuple[TextureOf | None, ...]:
+        """Of its colour first."""
+        surface = self.pbrMetallicRoughness
+        return (
+            surface.baseColorTexture,
+            surface.metallicRoughnessTexture,
+            self.normalTexture,
+            self.emissiveTexture,
+            self.occlusionTexture,
+        )
 
 
 class Asset(msgspec.Struct, frozen=True):
@@ -61,6 +95,12 @@ class Asset(msgspec.Struct, frozen=True):
 
     version: str
     minVersion: str | None = None  # noqa: N815
+
+
+class Version(msgspec.Struct, frozen=True):
+    """A file of which only the version is asked."""
+
+    asset: Asset
 
 
 class Buffer(msgspec.Struct, frozen=True):
@@ -172,7 +212,7 @@ class Root(msgspec.Struct, frozen=True):
     bufferViews: list[View] = []  # noqa: N815
     buffers: list[Buffer] = []
     skins: list[Skin] = []
-    materials: list[Named] = []
+    materials: list[Material] = []
     animations: list[Any] = []
     extensionsUsed: list[str] = []  # noqa: N815
     extensionsRequired: list[str] = []  # noqa: N815
@@ -183,9 +223,13 @@ def read_root(text: bytes) -> tuple[Root, list[str]]:
 
     Raises ValueError: it is no JSON of glTF 2, or it requires an extension that isn't known.
     """
+    plain = without_marks(text, "replace")
     try:
-        root = msgspec.json.decode(without_marks(text, "replace"), type=Root)
+        root = msgspec.json.decode(plain, type=Root)
     except (msgspec.DecodeError, UnicodeError, RecursionError) as error:
+        # What stands where was another in version 1.
+        if _is_old(plain):
+            raise ValueError("it is glTF of version 1: expected 2.0; convert it to that") from None
         raise ValueError(f"its JSON: {error}") from None
     for version in (root.asset.version, root.asset.minVersion or "2.0"):
         if version.partition(".")[0] != "2" or (version != "2.0" and version != root.asset.version):
@@ -204,6 +248,13 @@ def read_root(text: bytes) -> tuple[Root, list[str]]:
     if root.animations:
         notes.append("its animations are left out: it is as it stands at rest")
     return root, notes
+
+
+def _is_old(text: bytes) -> bool:
+    try:
+        return msgspec.json.decode(text, type=Version).asset.version.startswith("1.")
+    except (msgspec.DecodeError, UnicodeError, RecursionError):
+        return False
 
 
 def _known(name: str) -> bool:

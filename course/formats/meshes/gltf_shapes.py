@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.types import Floats, Floats64, Indices
-from course.formats.meshes.gltf_data import Data, item
+from course.formats.meshes.gltf_data import Data
 from course.formats.meshes.gltf_json import Primitive, Skin
+from course.formats.meshes.gltf_looks import cut_out, material_of, name_of, uv_of
 from course.formats.meshes.parts import Part
 
 
@@ -39,21 +40,12 @@ def part_of(data: Data, primitive: Primitive, weights: list[float], skin: "Joint
     weights : of its morph targets
     skin : the joints that move it, None where its node does
     """
-    quantised = "KHR_mesh_quantization" in data.root.extensionsUsed
     names = primitive.attributes
     if "POSITION" not in names:
         raise ValueError("triangles have no POSITION")
     vertices = data.floats(names["POSITION"], 3)
     normals = data.floats(names["NORMAL"], 3) if "NORMAL" in names else None
-    uv = None
-    if "TEXCOORD_0" in names:
-        values, normalized = data.values(names["TEXCOORD_0"], 2)
-        uv = np.array(data.floats(names["TEXCOORD_0"], 2), np.float64)
-        # Without the extension integers stand for 0 to 1 in any case.
-        if values.dtype.kind == "u" and not normalized and not quantised:
-            uv /= np.iinfo(values.dtype).max
-        # v runs down from the picture's top row.
-        uv[:, 1] = 1.0 - uv[:, 1]
+    uv, notes = uv_of(data, primitive)
     triangles = triangles_of(data, primitive, len(vertices))
     for target, weight in zip(primitive.targets, weights, strict=False):
         if weight and "POSITION" in target:
@@ -67,13 +59,17 @@ def part_of(data: Data, primitive: Primitive, weights: list[float], skin: "Joint
     if skin is not None:
         vertices, normals, mirrored = skin.move(data, names, vertices, normals)
         triangles = triangles[:, ::-1] if mirrored else triangles
-    notes = (
-        ("colours of its vertices are left out; the object's material says what colour it has",)
-        if "COLOR_0" in names
-        else ()
-    )
+    if "COLOR_0" in names:
+        notes.append(
+            "colours of its vertices are left out; the object's material says what colour it has"
+        )
+    if cut_out(material_of(data, primitive)):
+        notes.append(
+            f"alpha of its material {name_of(data, primitive)[:40]!r} is left out: faces are whole, and opaque unless"
+            " the object's material says otherwise"
+        )
     # Without normals triangles are flat (glTF 2.0, 3.7.2.1).
-    return Part(vertices, triangles, normals, uv, flat=normals is None, notes=notes)
+    return Part(vertices, triangles, normals, uv, flat=normals is None, notes=tuple(notes))
 
 
 def _like(rows: Floats, others: Floats) -> Floats:
@@ -154,11 +150,3 @@ def item_of(names: dict[str, int], name: str) -> int:
     if name not in names:
         raise ValueError(f"a primitive has no {name}")
     return names[name]
-
-
-def name_of(data: Data, primitive: Primitive) -> str:
-    """The name of a primitive's material, "" where it has none."""
-    if primitive.material is None:
-        return ""
-    found = item(data.root.materials, primitive.material, "material")
-    return found.name or f"material {primitive.material}"

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from course.core.types import Indices
+from course.core.types import Indices, Mask
 from course.shapes.mesh import Mesh
 
 
@@ -14,8 +14,10 @@ class Named:
     ----------
     names : of materials that triangles have, "" for none; empty where the file names no materials
     name : (T,) integer, which of the names each triangle has
+    bare : (T,) which triangles have no uv, of a mesh of which others have; None where none is so
     """
 
     mesh: Mesh
     names: tuple[str, ...]
     name: Indices
+    bare: Mask | None = None

@@ -8,13 +8,15 @@ have them; tinyobjloader 2.0rc13 takes the next corner's vertex for the normal o
 vertex for 0; meshio 5.3 misreads numbers that count back, and refuses uv of another number than the vertices'.
 """
 
+import codecs
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
 
-from course.core.types import Floats64, Indices
+from course.core.types import Floats64, Indices, Mask
 from course.formats.meshes.obj_corners import KINDS, Corners, Face, corners_of
 from course.formats.meshes.parts import (
     Part,
@@ -50,6 +52,22 @@ _CURVES = "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end co
 _OLD_CURVES = "bsp bzp cdc cdp res stech ctech"
 CURVED: Final = frozenset(f"{_CURVES} {_OLD_CURVES}".split(" "))
 """Statements of free-form curves and surfaces, some of them of the format before 3.0."""
+
+
+_LATIN: Final = "course.latin-1"
+"""The way in which bytes are read that are no UTF-8: in names of older programs they are Latin-1."""
+
+
+def _as_latin(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeDecodeError):
+        raise error
+    return error.object[error.start : error.end].decode("latin-1"), error.end
+
+
+codecs.register_error(_LATIN, _as_latin)
+
+_COMMENT = re.compile(r"(?<!\S)#.*")
+"""It begins where a word does: 1.#INF, as Windows wrote it, is no number, and a#b is a name."""
 
 
 @dataclass
@@ -106,11 +124,11 @@ def parse_obj(data: bytes) -> list[Part]:
     Vertices are parted where faces give them several uv or normals, and where smoothing groups end. Corners without uv,
     in a file where others have it, are at (0, 0); those without a normal have zeros in its place.
     Raises ValueError, IndexError naming the line: for a row of too few numbers, or a word that is none; for a face of
-    fewer than three corners, whose corners differ in form, or that refers to what isn't there; for an s without a
-    number.
+    fewer than three corners, whose corners differ in form, or that refers to what isn't there, or to a vertex or
+    uv that isn't finite; for an s without a number.
     """
     lines = _Lines()
-    lines.add(_plain_lines(text_of(data, "replace")), 1)
+    lines.add(_plain_lines(text_of(data, _LATIN)), 1)
     v, vt, vn = (_numbers(kind, lines.rows[kind], lines.numbers[kind]) for kind in KINDS)
     notes = _passed(lines)
     if not lines.faces:
@@ -118,6 +136,8 @@ def parse_obj(data: bytes) -> list[Part]:
             raise ValueError(f"no triangles: {'; '.join(notes)}")
         return []
     lengths, corners = corners_of(lines.faces, (len(v), len(vt), len(vn)))
+    for kind, rows, which in zip(KINDS[:2], (v, vt), corners[:2], strict=True):
+        _check_finite(lines, kind, rows, which)
     face = np.arange(len(lengths))
     if corners[2] is None and (once := one_sided(lengths, corners[0])) is not None:
         kept, chosen = once
@@ -133,10 +153,17 @@ def parse_obj(data: bytes) -> list[Part]:
         replace(
             _part((v, vt, vn), corners, cuts.where, group),
             names=names,
+            bare=_bare(corners[1], cuts.where),
             name=None if name is None else np.repeat(np.array(name)[face], lengths - 2),
             notes=notes,
         )
     ]
+
+
+def _bare(at: Indices | None, where: Indices) -> Mask | None:
+    """Which triangles have no uv, though others have: a face has it at all corners or at none."""
+    bare = None if at is None else at[where[:, 0]] < 0
+    return bare if bare is not None and bare.any() else None
 
 
 def _part(
@@ -238,7 +265,8 @@ def _rows_or_zeros(rows: Floats64, index: Indices | None, which: Indices) -> Flo
 def _plain_lines(text: str) -> list[str]:
     """The lines without comments, tabs and indents; where one goes on in the next, that one is left empty."""
     text = text.replace("\r\n", "\n").replace("\r", "\n").replace("\t", " ")
-    lines = [line.partition("#")[0].strip() for line in text.split("\n")]
+    text = _COMMENT.sub("", text) if "#" in text else text
+    lines = [line.strip() for line in text.split("\n")]
     if "\\" in text:
         for k in range(len(lines) - 1, -1, -1):
             if lines[k].endswith("\\"):
@@ -259,6 +287,17 @@ def _numbers(keyword: str, rows: list[str], lines: list[int]) -> Floats64:
         if len(found) == words * len(rows) and all(len(row.split()) == words for row in rows):
             return found.reshape(-1, words)[:, :width]
     return np.array([_row(keyword, row, number) for row, number in zip(rows, lines, strict=True)])
+
+
+def _check_finite(lines: _Lines, kind: str, rows: Floats64, which: Indices | None) -> None:
+    """Refuse rows that aren't finite and that a corner has, by their line."""
+    odd = ~np.isfinite(rows).all(axis=1)
+    if which is None or not odd.any():
+        return
+    wrong = np.intersect1d(which, np.flatnonzero(odd))
+    if len(wrong):
+        row, number = lines.rows[kind][wrong[0]], lines.numbers[kind][wrong[0]]
+        raise ValueError(f"line {number}: {kind} {row.strip()[:60]}: expected finite numbers")
 
 
 def _row(keyword: str, row: str, number: int) -> list[float]:

@@ -33,6 +33,7 @@ class Part:
     flat : whether every triangle has a normal of its own, as the file says without one
     names : of the file's materials
     name : (T,) integer or None, which of the names each triangle has; None where there are none
+    bare : (T,) which triangles have no uv though others have, or None where none is so
     notes : what is to be told of the part, such as what of the file was passed over
     """
 
@@ -46,6 +47,7 @@ class Part:
     flat: bool = False
     names: tuple[str, ...] = ()
     name: Array | None = None
+    bare: Array | None = None
     notes: tuple[str, ...] = ()
 
 

@@ -46,7 +46,13 @@ CORNERS = ("vertex_indices", "vertex_index")
 WEDGES = "texcoord"
 """Name of a face's list of uv, u and v for each of its corners."""
 
-UV = (("texture_u", "texture_v"), ("u", "v"), ("s", "t"))
+UV = tuple(
+    tuple(pair.split())
+    for pair in (
+        *("texture_u texture_v", "u v", "s t", "texture_s texture_t", "texcoord_u texcoord_v"),
+        *("u0 v0", "s0 t0", "tu tv"),
+    )
+)
 """Names that programs use for the uv of a vertex; the format defines none."""
 
 COLORS = ("red", "diffuse_red", "r")
@@ -148,7 +154,10 @@ def parse_ply(data: bytes) -> list[Part]:
         return [part]
     uv = np.zeros((corners.lengths.sum(), 2), wedges.values.dtype)
     uv[np.repeat(wedges.lengths > 0, corners.lengths)] = wedges.values.reshape(-1, 2)
-    uv = uv if chosen is None else uv[chosen]
+    without = np.repeat(wedges.lengths == 0, corners.lengths)
+    uv, without = (rows if chosen is None else rows[chosen] for rows in (uv, without))
+    bare = without[cuts.where[:, 0]]
+    part = replace(part, bare=bare if bare.any() else None)
     return [_split_by_corner(part, uv[cuts.where.ravel()])]
 
 

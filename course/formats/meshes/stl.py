@@ -21,13 +21,18 @@ HEADER = 84
 
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
 
+COLOURED = 1 << 15
+"""Of the last two bytes of a triangle: the other bits are its colour, as VisCAM and SolidView write it."""
+
+_COLOURS = "its colours are left out; the object's material says what colour it has"
+
 _WORDS = re.compile(
     r"(?i)(?<!^)[ \t]+(?=(?:facet +normal|outer +loop|vertex|end *loop|end *facet|end *solid)\b)",
     re.M,
 )
 """Where a line of a file ends that has several statements in a line."""
 
-OTHERS = ("outer", "endloop", "endfacet", "endsolid", "solid", "color", "end")
+OTHERS = ("outer", "endloop", "endfacet", "endsolid", "solid", "end")
 """First words of lines that hold no numbers to read."""
 
 LARGEST_INDENT = 512
@@ -66,9 +71,9 @@ def _binary(data: bytes) -> list[Part]:
     notes = []
     if behind := len(data) - HEADER - count * TRIANGLE.itemsize:
         notes.append(f"{behind:,} bytes behind its last triangle are left out")
-    if b"COLOR=" in data[:80]:
-        notes.append("its colours are left out; the object's material says what colour it has")
     rows = np.frombuffer(data, TRIANGLE, count, HEADER)
+    if b"COLOR=" in data[:80] or (rows["more"] & COLOURED).any():
+        notes.append(_COLOURS)
     return _parts(rows["corners"].reshape(-1, 3), rows["normal"], notes)
 
 
@@ -88,7 +93,7 @@ def _text(text: str) -> list[Part]:
     vertices: list[str] = []
     normals: list[str] = []
     at: list[int] = []
-    in_facet = 3
+    in_facet, coloured = 3, False
     for number, line in enumerate(lines, start=1):
         words = line.split(None, 1)
         if not words or words[0].startswith("#"):
@@ -103,6 +108,8 @@ def _text(text: str) -> list[Part]:
                 raise ValueError(f"line {number}: {_not_three(in_facet)}")
             in_facet = 0
             normals.append(line)
+        elif keyword == "color":
+            coloured = True
         elif keyword not in OTHERS:
             raise ValueError(f"line {number}: {words[0][:40]!r} begins no line of an STL file")
         elif keyword == "endfacet" and in_facet != 3:
@@ -111,7 +118,7 @@ def _text(text: str) -> list[Part]:
         raise ValueError(f"line {len(lines)}: {_not_three(in_facet)}")
     corners = _numbers(vertices, 1, at)
     facets = _numbers(normals, 2, None)
-    return _parts(corners, facets, [])
+    return _parts(corners, facets, [_COLOURS] if coloured else [])
 
 
 def _not_three(count: int) -> str:

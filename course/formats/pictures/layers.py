@@ -12,6 +12,9 @@ MOST_NAMES = 12
 
 MOST_PARTS = 1000
 
+COLOURS = "not R, G and B, or Y; save colours as R, G and B, linear, and grey as Y"
+"""What is told where there are none, such as in XYZ, which is colours of another kind, or a vector."""
+
 
 @dataclass(frozen=True)
 class Layer:
@@ -38,11 +41,15 @@ def choose(file: "ImageInput", wanted: str | None) -> tuple[Layer, "ImageSpec", 
     layers = [layer for part, spec in enumerate(specs) for layer in _layers(part, spec)]
     if not layers:
         names = [name for spec in specs for name in spec.channelnames]
-        raise ValueError(f"it has the channels {_listed(names)}, not R, G and B, or Y")
+        raise ValueError(f"it has the channels {_listed(names)}, {COLOURS}")
     told = _listed([layer.names[0] or "the one without a name" for layer in layers])
     if wanted is not None:
         found = [layer for layer in layers if wanted in layer.names]
         if not found:
+            names = [name for spec in specs for name in spec.channelnames]
+            own = [name for name in names if name.rpartition(".")[0] == wanted]
+            if own:
+                raise ValueError(f"its layer {wanted!r} has the channels {_listed(own)}, {COLOURS}")
             raise ValueError(f"it has no layer {wanted!r}; it has {told}")
         return found[0], specs[found[0].part], []
     plain = [layer for layer in layers if "" in layer.names]
@@ -69,9 +76,10 @@ def _layers(part: int, spec: "ImageSpec") -> Iterator[Layer]:
         of.setdefault(layer, {}).setdefault(channel.upper(), number)
     own = spec.get_string_attribute("oiio:subimagename") or spec.get_string_attribute("name")
     for layer, channels in of.items():
-        if "RY" in channels or "BY" in channels:
-            continue
-        for wanted in ("RGB", "Y"):
+        if not {"RY", "BY", "X"}.isdisjoint(channels):
+            # Y is a luminance for colours then, or the middle of X, Y and Z.
+            channels.pop("Y", None)
+        for wanted in (("R", "G", "B"), ("RED", "GREEN", "BLUE"), ("Y",)):
             if set(wanted) <= set(channels):
                 both = f"{own}.{layer}" if own and layer else own or layer
                 names = dict.fromkeys(

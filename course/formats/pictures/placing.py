@@ -1,4 +1,4 @@
-"""Where the pixels of a picture belong: its orientation, and its window."""
+"""What Exif data and windows say: how a picture is turned, where its pixels belong, and colours without a profile."""
 
 import struct
 from typing import TYPE_CHECKING, Final
@@ -15,11 +15,27 @@ TAG: Final = 0x0112
 """Of the orientation (TIFF 6.0, section 8; Exif 2.32, 4.6.4)."""
 
 
+EXIF, COLOURS, SRGB = 0x8769, 0xA001, 1
+"""Of Exif's own data, its colour space, and the one that has a number of its own (Exif 2.32, 4.6.5)."""
+
+BROKEN: Final = (OSError, ValueError, SyntaxError, KeyError, TypeError, IndexError, struct.error)
+"""Errors of Pillow where Exif data is corrupt."""
+
+
+def in_other_colours(image: "Image") -> bool:
+    """Whether Exif data says that colours aren't sRGB's; Adobe RGB has no number of its own."""
+    try:
+        exif = image.getexif()
+        return bool(exif) and exif.get_ifd(EXIF).get(COLOURS, SRGB) != SRGB
+    except BROKEN:
+        return False
+
+
 def orientation(image: "Image") -> int:
     """How a picture is turned, from 1, upright, to 8; 1 where it doesn't say so, or not readably."""
     try:
         turned = image.getexif().get(TAG, 1)
-    except (OSError, ValueError, SyntaxError, KeyError, TypeError, IndexError, struct.error):
+    except BROKEN:
         return 1
     return turned if isinstance(turned, int) and 1 <= turned <= 8 else 1
 

@@ -14,13 +14,19 @@ import numpy as np
 
 from course.core.types import Floats32
 from course.errors import CourseWarning, SceneError
+from course.formats.pictures.alpha import see_through
 from course.formats.pictures.icc import in_srgb, is_srgb
 from course.formats.pictures.layers import choose
 from course.formats.pictures.mending import Found, mend, parts_of, strips
-from course.formats.pictures.placing import in_display_window, orientation, upright
+from course.formats.pictures.placing import (
+    in_display_window,
+    in_other_colours,
+    orientation,
+    upright,
+)
 from course.formats.pictures.png_colours import Coding, Transfer, coding_of
 from course.formats.pictures.primaries import to_rec709
-from course.formats.pictures.radiance import radiance_primaries
+from course.formats.pictures.radiance import radiance_header
 from course.inputs import LARGEST_DATA, MOST_PIXELS, Bound, opened, shown
 
 if TYPE_CHECKING:
@@ -28,13 +34,16 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 LINEAR: Final = (".exr", ".hdr")
-"""Suffixes of the formats that hold radiance, up to a scale. A Radiance file's EXPOSURE is left alone, too."""
+"""Suffixes of the formats that hold radiance, up to a scale."""
 
 MAGIC: Final = (b"\x76\x2f\x31\x01", b"#?RADIANCE", b"#?RGBE")
 """The first bytes of their files."""
 
 CODED: Final = ("PNG", "JPEG", "TIFF", "BMP", "GIF", "WEBP", "PPM", "TGA")
 """What Pillow is asked for; of its other formats some start programs, and most are drawings or films."""
+
+TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
+"""First bytes of its files (TIFF 6.0, section 2; BigTIFF)."""
 
 FRAMES: Final = ("GIF", "WEBP", "TIFF", "PNG")
 """Formats that may have several pictures of which each is one to be looked at."""
@@ -52,11 +61,13 @@ def read_picture(
     codes: bool = False,
     layer: str | None = None,
 ) -> Floats32:
-    """A picture as linear RGB of Rec. 709; grey becomes RGB, and alpha is dropped.
+    """A picture as linear RGB of Rec. 709; grey becomes RGB. Alpha is dropped, and told in a
+    picture of codes.
 
     It stands upright as its orientation says, and covers its display window, black where it has no pixels. Primaries,
     curves and profiles of colours that it names are heeded. Values that are infinite or negative become the largest
-    that there is and 0, which one `CourseWarning` tells with their number.
+    that there is and 0, which one `CourseWarning` tells with their number. Values of a Radiance picture are divided by
+    its EXPOSURE and COLORCORR.
     On the way it takes little more memory than the picture that is returned and the file's own codes together.
     Raises SceneError: the file is missing, is no picture or is too large, has no such layer, or holds a value that is
     not a number.
@@ -110,9 +121,16 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> Fou
         deep = image.mode.startswith("I;16") or _is_deep_png(stream)
         if image.format != "TIFF" or not deep:
             turned = orientation(image)
+        if see_through(image):
+            notes.append("its alpha is left out: all of it is opaque")
         # Colours of numbers are none.
         coding = Coding() if codes else coding_of(stream)
         profile = None if codes else image.info.get("icc_profile")
+        if not codes and not profile and in_other_colours(image):
+            notes.append(
+                "its colours aren't sRGB's by its Exif data, such as Adobe RGB, but it has no profile: they are taken"
+                " for sRGB's; convert it to sRGB"
+            )
         if not deep:
             if profile:
                 image, told = in_srgb(image, profile)
@@ -143,6 +161,11 @@ def _opened(stream: BinaryIO) -> Image:
         try:
             return Image.open(stream, formats=CODED)
         except UnidentifiedImageError as error:
+            stream.seek(0)
+            if stream.read(4) in TIFF:
+                raise ValueError(
+                    "it is a TIFF, but not of whole numbers of 8 or 16 bits, or cut short; save it as such, or as EXR"
+                ) from error
             raise ValueError("it begins as none of " + ", ".join(CODED)) from error
         finally:
             Image.MAX_IMAGE_PIXELS = usual
@@ -204,24 +227,33 @@ def _read_linear(
     if not stream.read(max(map(len, MAGIC))).startswith(MAGIC):
         raise ValueError("it begins neither as EXR nor as HDR")
     stream.seek(0)
-    primaries = radiance_primaries(stream)
+    header = radiance_header(stream)
     file, spec = _open_linear(path)
     _check_size(spec.width, spec.height, most)
     chosen, spec, notes = choose(file, layer)
     _check_size(spec.width, spec.height, most)
     _check_size(spec.full_width, spec.full_height, most)
-    _check_linear(spec)
+    _check_linear(spec, header.turned)
     first, last = min(chosen.channels), max(chosen.channels) + 1
     pixels = file.read_image(chosen.part, 0, first, last, "float")
     if pixels is None:
-        raise ValueError(file.geterror())
+        old = (
+            path.suffix.lower() == ".hdr"
+            and "; it is cut short, or of the old run lengths: save it anew"
+        )
+        raise ValueError(f"{file.geterror()}{old or ''}")
     pixels = pixels.reshape(spec.height, spec.width, last - first)
     wanted = [channel - first for channel in chosen.channels]
     if wanted != list(range(last - first)):
         pixels = pixels[..., wanted]
     pixels = in_display_window(np.broadcast_to(pixels, (*pixels.shape[:2], 3)), spec)
-    picture = np.require(pixels, np.float32, ["C", "W"])
-    given = primaries or spec.getattribute("chromaticities")
+    picture = np.require(upright(pixels, header.turned), np.float32, ["C", "W"])
+    if (header.exposure != 1).any() and not codes:
+        values = " ".join(f"{value:g}" for value in dict.fromkeys(header.exposure.tolist()))
+        notes = [*notes, f"its values are divided by its EXPOSURE and COLORCORR, {values}"]
+        with np.errstate(over="ignore"):
+            np.divide(picture, header.exposure, out=picture, casting="same_kind")
+    given = header.primaries or spec.getattribute("chromaticities")
     if given is not None and not codes:
         try:
             matrix = to_rec709(given)
@@ -253,9 +285,11 @@ def _open_linear(path: Path) -> tuple[ImageInput, ImageSpec]:
     return file, file.spec()
 
 
-def _check_linear(spec: ImageSpec) -> None:
-    """Refuse what would be read as another picture than the file shows."""
+def _check_linear(spec: ImageSpec, turned: int) -> None:
+    """Refuse what would be read as another picture than the file shows; ``turned``: how it is known to be."""
     if str(spec.format) not in ("half", "float"):
         raise ValueError(f"its values are {spec.format}, not half or float")
-    if spec.get_int_attribute("Orientation", 1) != 1:
-        raise ValueError("its pixels don't run in rows from the upper left corner")
+    if turned == 1 and spec.get_int_attribute("Orientation", 1) != 1:
+        raise ValueError(
+            "its pixels don't run in rows from the upper left corner; open it in a picture editor, and save it anew"
+        )
