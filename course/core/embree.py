@@ -33,11 +33,8 @@ class EmbreeCaster:
 
     def free(self, origin: Floats32, direction: Floats32, limit: Floats32 | float) -> Mask:
         """See ``Caster``; embreex returns 0 where the ray is blocked, and for negative limits, elsewhere -1."""
-        # Before embreex overwrites the limits.
-        unasked = np.less(limit, 0)
-        free: Mask = self._run(origin, direction, limit, query="OCCLUDED") < 0
-        free |= unasked
-        return free
+        unasked = np.less(limit, 0)  # Before embreex overwrites the limits.
+        return np.asarray((self._run(origin, direction, limit, query="OCCLUDED") < 0) | unasked)
 
     def _run(self, origin: Floats32, direction: Floats32, *limit: Any, **query: Any) -> Any:
         if origin.shape[1] < direction.shape[1]:

@@ -30,25 +30,14 @@ if TYPE_CHECKING:
 OFFSET = 2.0**-19
 """Height above a surface at which rays begin, as a fraction of the largest coordinate of its triangle.
 
-Hit points and the casters' tests have an error of a few rounding errors (2^-24 of the triangle's largest coordinate).
-tests/geometry/test_surface.py measures it.
+Hit points and casters' tests err by a few 2^-24 of the largest coordinate (tests/geometry/test_surface.py).
 """
 
-SLIVER = 16.0
-"""A triangle is thin if its longest edge L is more than SLIVER times its height H."""
-
-LONG, MOST = 64.0, 1024.0
-"""The offset of a thin triangle is at least OFFSET L min(L / (LONG H), MOST), which is 2^-25 L^2 / H.
-
-A hit point has no larger error there than elsewhere: barycentrics inside the triangle make it a mean of the corners,
-whose rounding it has. But a caster takes the normal as the cross product of two edges, a and b long, with an angle c
-between them; products are rounded by up to 2^-24 a b. This turns the normal by 2^-24 / sin(c), and lifts the plane at
-the other end of the triangle by L times that. Casters take the two shorter edges. In a needle their angle is near 90
-degrees, and nothing is lifted. In a flat cap, whose corner lies over the middle of its longest edge, sin(c) = 4 H / L.
-Rays begin twice as high. Needles don't need it for themselves, but for those that lie beside them in one plane.
-
-A hit's barycentrics err, too, by so much that its point moves along the triangle: by up to 2^-24 L^2 / H, and by a
-twentieth of that on average.
+SLIVER, LONG, MOST = 16.0, 64.0, 1024.0
+"""A triangle is thin if its longest edge L is over SLIVER times its height H. Its offset is then at least 2^-25 L^2 / H,
+as OFFSET L min(L / (LONG H), MOST). Its hit points are as exact as others, but casters take the normal as the product of
+two edges, rounded by 2^-24: in a flat cap this lifts the plane by 2^-26 L^2 / H at its ends, in a needle not at all.
+Barycentrics err as well: points move along the triangle by up to 2^-24 L^2 / H, and by a twentieth of that on average.
 """
 
 INSET = 2.0
@@ -73,16 +62,14 @@ def offset_and_inset(
     offset = OFFSET * np.abs(p).max(axis=(0, 1), initial=0)
     longest = lengths.max(axis=0, initial=0)
     thin = np.flatnonzero(longest * longest > SLIVER * twice_area)
-    if len(thin):
-        offset[thin] = np.maximum(offset[thin], raised(longest[thin], twice_area[thin]))
+    offset[thin] = np.maximum(offset[thin], raised(longest[thin], twice_area[thin]))
     # A barycentric is the distance from the edge / height, and height = twice the area / edge length.
     return offset, np.minimum(INSET * offset * lengths / twice_area, 1 / 3), thin
 
 
 def raised(longest: Floats64, twice_area: Floats64) -> Floats64:
-    """Least offsets (T,) of thin triangles by their longest edges, see ``LONG``."""
-    lifted: Floats64 = OFFSET * longest
-    return lifted * np.minimum(longest * longest / (LONG * twice_area), MOST)
+    """Least offsets (T,) of thin triangles by their longest edges, see ``SLIVER``."""
+    return OFFSET * longest * np.minimum(longest * longest / (LONG * twice_area), MOST)
 
 
 def pull_off_edges(

@@ -141,7 +141,8 @@ def _ended(module: str, check: Check, trial: Trial, references: References) -> O
     except StudentError as error:
         if error.kind in ("raised", "bad value") and not error.module_wide:
             error.example = check.smallest(trial) or error.example
-        result, trouble = troubled(module, check, error), error
+        # Its frames hold whatever the function gave, until Python looks for cycles.
+        result, trouble = troubled(module, check, error), error.with_traceback(None)
     return replace(result, figures=tuple(trial.figures)), trouble
 
 

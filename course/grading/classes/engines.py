@@ -23,6 +23,8 @@ from queue import SimpleQueue
 from time import monotonic, sleep
 from typing import Any, Generic, TypeVar
 
+import psutil
+
 from course.grading.memory import at_most
 
 Item = TypeVar("Item")
@@ -32,7 +34,13 @@ Value = TypeVar("Value")
 GRACE = 3.0
 """Seconds that processes have to end in when they are told to."""
 
-DIED = "the process that graded it has died twice, or was ended for it took too long"
+DIED = "the process that graded it has died twice, or was ended, for it took too long or too much memory"
+
+MOST_MEMORY = 1_400_000_000
+"""Bytes that a process may hold; to grade all modules takes 500 MB."""
+
+LOOK = 0.1
+"""Seconds between two looks at that."""
 
 OWN_SECONDS = 600
 """Processor time that a process may take for one item, its children's not counted: to grade all modules takes the
@@ -205,6 +213,7 @@ def _start(processors: set[int]) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _terminated)
     threading.Thread(target=_follow_parent, daemon=True).start()
+    threading.Thread(target=_stay_small, daemon=True).start()
 
 
 def _terminated(*_: object) -> None:
@@ -222,6 +231,14 @@ def _follow_parent() -> None:
     if parent is not None:
         wait_for([parent.sentinel])
         os._exit(1)
+
+
+def _stay_small() -> None:
+    """End this process where it holds too much: its item has been too much for it, and is told as that."""
+    process = psutil.Process()
+    while process.memory_info().rss < MOST_MEMORY:
+        sleep(LOOK)
+    os._exit(1)
 
 
 def apart(

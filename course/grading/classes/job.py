@@ -14,13 +14,9 @@ from course import __version__
 from course.grading.checks.check import References
 from course.grading.classes.settings import Settings
 from course.grading.grading import grade
-from course.grading.memory import at_most
 from course.grading.references import read_references
 from course.grading.report import Report, for_students
 from course.grading.worker.sandbox import protected, sandbox
-
-LARGEST = 1_000_000_000
-"""Bytes that the grader may take for one submission besides what it has when it begins; it takes 400 MB."""
 
 RESULTS = "results.json"
 """The file that holds everything that was found."""
@@ -71,17 +67,15 @@ def grade_job(job: Job, references: Path | bytes) -> Graded:
     if job.trouble:
         report = troubled(job.student, job.trouble, seed)
     else:
-        arrays = _references(references, seed)
-        with at_most(LARGEST):
-            report = grade(
-                job.sources,
-                arrays,
-                seed=seed,
-                modules=job.settings.modules,
-                student=job.student,
-                limits=job.settings.limits,
-                shut_in=sandbox() if job.trusted else protected(),
-            )
+        report = grade(
+            job.sources,
+            _references(references, seed),
+            seed=seed,
+            modules=job.settings.modules,
+            student=job.student,
+            limits=job.settings.limits,
+            shut_in=sandbox() if job.trusted else protected(),
+        )
     report = replace(report, remarks=job.remarks)
     # Arrays to draw are most of a report's bytes.
     results = tuple(replace(result, figures=()) for result in report.results)
