@@ -34,11 +34,10 @@ Hit points and casters' tests err by a few 2^-24 of the largest coordinate (test
 """
 
 SLIVER, LONG, MOST = 16.0, 64.0, 1024.0
-"""A triangle is thin if its longest edge L is over SLIVER times its height H. Its offset is then at least 2^-25 L^2 / H,
-as OFFSET L min(L / (LONG H), MOST). Its hit points are as exact as others, but casters take the normal as the product of
-two edges, rounded by 2^-24: in a flat cap this lifts the plane by 2^-26 L^2 / H at its ends, in a needle not at all.
-Barycentrics err as well: points move along the triangle by up to 2^-24 L^2 / H, and by a twentieth of that on average.
-"""
+"""A triangle is thin if its longest edge L is over SLIVER times its height H. Its offset is at least 2^-25 L^2 / H, as
+OFFSET L min(L / (LONG H), MOST). Its hit points are as exact as others, but casters take the normal as a product of two
+edges, rounded by 2^-24: in a flat cap it lifts the plane by 2^-26 L^2 / H at its ends, in a needle not at all.
+Barycentrics err as well: points move along it by up to 2^-24 L^2 / H, and by a twentieth of that on average."""
 
 INSET = 2.0
 """Rays begin at least this many offsets inside the triangle's edges.
