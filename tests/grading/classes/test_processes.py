@@ -48,6 +48,12 @@ def test_who_keeps_the_grader_itself_busy_is_ended(
     assert {outcomes[item].value for item in ("a", "rest", "b")} == {"A", "REST", "B"}
 
 
+def test_who_fills_the_graders_memory_is_ended(tmp_path: Path) -> None:
+    outcomes = {one.item: one for one in in_processes(work, ["hoard", "a", "b"], tmp_path, 2)}
+    assert outcomes["hoard"].fault == DIED
+    assert {outcomes[item].value for item in ("a", "b")} == {"A", "B"}
+
+
 @pytest.mark.parametrize("processors", [1, 2, 5, 16])
 @pytest.mark.parametrize("processes", [2, 3, 16])
 def test_processes_share_no_processor_where_there_are_enough(

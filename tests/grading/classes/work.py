@@ -23,6 +23,10 @@ def work(item: str, folder: Path) -> str:
     if kind == "match":
         # For hours, in compiled code: no exception gets through to it.
         re.fullmatch("(a+)+b", "a" * 60)
+    if kind == "hoard":
+        held = b"1" * 1_600_000_000
+        time.sleep(5)
+        del held
     if kind == "rest":
         time.sleep(0.5)
     if kind == "sleep":
