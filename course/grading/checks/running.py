@@ -244,7 +244,11 @@ class Gate:
                 "bad value", f"{function} returned {wrong}", arguments=given, remedy=remedy
             )
             error.example = example
-            raise error
+            try:
+                raise error
+            finally:
+                # Else this frame and its error would hold each other, and the value.
+                del error
         return value
 
 
