@@ -6,6 +6,7 @@ import numpy as np
 
 from course.grading.checks.declare import Arguments, Function
 from course.grading.checks.examples import where
+from course.grading.errors import StudentError
 
 COMMA = "A comma after the only result makes a tuple of it."
 
@@ -46,3 +47,10 @@ def column_of(declared: Function, part: Any, arguments: tuple[Any, ...]) -> str:
     names = (argument.name for argument in declared.arguments)
     index = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
     return where(Arguments(zip(names, arguments, strict=False)), index, array.shape)
+
+
+def of_no_use(why: str, given: str, remedy: str, example: str) -> StudentError:
+    """The error of a value that is of no use. Raise it as it comes: a frame that names its error is held by it."""
+    error = StudentError("bad value", why, arguments=given, remedy=remedy)
+    error.example = example
+    return error

@@ -30,7 +30,7 @@ from course.grading.checks.closer import CloserLook
 from course.grading.checks.declare import declaration, unstacked
 from course.grading.checks.lending import Lenders, Lending, Outcome
 from course.grading.checks.mistakes import SLIPS
-from course.grading.checks.remedies import column_of, of_count, of_shape
+from course.grading.checks.remedies import column_of, of_count, of_no_use, of_shape
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.errors import StudentError
 from course.grading.looked import Looked
@@ -240,15 +240,7 @@ class Gate:
                     remedy = of_shape(part, shape)
         if wrong:
             given = said(self._path(function), arguments, named)
-            error = StudentError(
-                "bad value", f"{function} returned {wrong}", arguments=given, remedy=remedy
-            )
-            error.example = example
-            try:
-                raise error
-            finally:
-                # Else this frame and its error would hold each other, and the value.
-                del error
+            raise of_no_use(f"{function} returned {wrong}", given, remedy, example)
         return value
 
 
