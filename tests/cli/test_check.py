@@ -247,7 +247,7 @@ def test_a_loop_that_never_ends_is_pointed_at(run: Run, folder: Path) -> None:
 
 
 def test_what_a_right_function_should_know_is_told(run: Run, folder: Path) -> None:
-    own = "\n\ndef displacement(*given):\n    sum(range(2_000_000))\n    return _right(*given)\n"
+    own = "\n\ndef displacement(*given):\n    sum(range(20_000_000))\n    return _right(*given)\n"
     right = SOLUTION.replace("def displacement(", "def _right(")
     (folder / "motion_blur.py").write_text(right + own, encoding="utf-8")
     said = run("check", "motion_blur", "--folder", folder, "--only", "displacement/speed").stdout
