@@ -155,6 +155,8 @@ class _Compiler:
     def of_object(self, light: d.ObjectLight, triangles: Triangles, material: int) -> MeshLight:
         """A light of the triangles that have a material."""
         which = np.flatnonzero(triangles.material == material)
+        # Those without area shine nowhere.
+        which = which[areas(triangles.edges[which]) > 0]
         again = repeated(triangles.planes[which], triangles.edges[which])
         if again.any():
             warnings.warn(
