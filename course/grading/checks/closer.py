@@ -66,8 +66,6 @@ class CloserLook:
         """The result with the known mistake that the function makes, where that explains it."""
         function = check.function
         if function not in self._matched:
-            # Whatever comes of it, it is looked for once.
-            self._matched[function] = None
             self._matched[function] = known_mistake(
                 self._checks, function, caller, self._references
             )

@@ -57,7 +57,7 @@ class Lending:
         function = check.function
         decided = self._lent.get(function)
         lent = self._with_reference(check) if decided or (lent_first and decided is None) else None
-        if lent and (decided or self._counts(check, lent)):
+        if lent and (decided or self._settled(check, lent)):
             return lent
         result, error = self._attempt(check, self._caller, self._yardstick)
         if result.status is Status.PASSED:
@@ -75,7 +75,7 @@ class Lending:
             borrowed = result.status is not Status.FAILED or getattr(
                 lent and lent[2], "borrowed", True
             )
-            if lent and borrowed and self._counts(check, lent):
+            if lent and borrowed and self._settled(check, lent):
                 return lent
         return result, error, self._caller
 
@@ -88,8 +88,8 @@ class Lending:
         hint = STANDS_ON if result.status is Status.PASSED else result.hint
         return replace(result, hint=hint), error, lender
 
-    def _counts(self, check: Check, lent: tuple[Result, StudentError | None, Caller]) -> bool:
-        """Whether the function is judged beside the reference's from here on, since nothing speaks against it."""
+    def _settled(self, check: Check, lent: tuple[Result, StudentError | None, Caller]) -> bool:
+        """Settle beside whose functions this one is judged, if the check has passed there: true for the reference's."""
         if lent[0].status is not Status.PASSED:
             return False
         earlier = (self._with_reference(each) for each in self._passed[check.function])

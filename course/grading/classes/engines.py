@@ -16,6 +16,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_compl
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, suppress
 from dataclasses import dataclass
+from functools import cache
 from multiprocessing import get_context
 from multiprocessing.connection import wait as wait_for
 from multiprocessing.process import BaseProcess
@@ -24,8 +25,6 @@ from time import monotonic, sleep
 from typing import Any, Generic, TypeVar
 
 import psutil
-
-from course.grading.memory import at_most
 
 Item = TypeVar("Item")
 Shared = TypeVar("Shared")
@@ -50,7 +49,7 @@ SECONDS = 5.0
 """Wall clock that one item may take apart from the grader."""
 
 LARGEST_SPACE = 1_000_000_000
-"""Bytes that a process apart may take besides what it has when it begins."""
+"""Bytes of address space that a process apart may take besides what it has when it begins."""
 
 
 @dataclass(frozen=True)
@@ -265,16 +264,31 @@ def apart(
 def _limited(numbered: tuple[int, Item], how: tuple[Callable[[Item], Value], float]) -> Value:
     """Call the function for an item, within the limits."""
     (_, item), (function, seconds) = numbered, how
-    with at_most(LARGEST_SPACE):
-        if not hasattr(signal, "setitimer"):
-            return function(item)
-        # The parser doesn't come back to Python until it is done, so no exception could end it: the signal kills.
-        signal.signal(signal.SIGALRM, signal.SIG_DFL)
-        signal.setitimer(signal.ITIMER_REAL, seconds)
-        try:
-            return function(item)
-        finally:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
+    _limit_memory()
+    if not hasattr(signal, "setitimer"):
+        return function(item)
+    # The parser doesn't come back to Python until it is done, so no exception could end it: the signal kills.
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        return function(item)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+
+
+@cache
+def _limit_memory() -> None:
+    """Limit this process, once."""
+    try:
+        import resource
+
+        hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+        # NumPy's threads take space by the number of cores.
+        limit = psutil.Process().memory_info().vms + LARGEST_SPACE
+        limit = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
+        resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+    except (ImportError, OSError, ValueError, psutil.Error):
+        return  # a system without such limits: time and the size of what is read are bounded still
 
 
 def on_cluster(

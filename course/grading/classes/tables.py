@@ -1,6 +1,5 @@
 """CSV files as spreadsheets and learning systems write them: any of four delimiters, UTF-8 or what a mark says."""
 
-import codecs
 import csv
 import io
 import re
@@ -9,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from course.errors import CourseError
-from course.inputs import LARGEST_SCENE, Bound, read_input, shown
+from course.inputs import LARGEST_SCENE, Bound, read_input, shown, text_of
 
 _DELIMITERS = ",;\t|"
 
@@ -36,9 +35,8 @@ class Table:
 def read_table(path: Path, what: str) -> Table:
     """Read a CSV file; ``CourseError`` where it can't be read, or a row has more cells than the heading."""
     content = read_input(path, what, Bound(LARGEST_SCENE))
-    wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
-        text = content.decode("utf-16" if wide else "utf-8-sig")
+        text = text_of(content)
     except UnicodeError as error:
         told = f"{shown(path)}: can't be read: {error}; save it as CSV in UTF-8"
         raise CourseError(told) from None

@@ -9,6 +9,8 @@ from time import monotonic
 
 import psutil
 
+from course.grading.worker.limits import tree
+
 GRACE = 1.0
 """Seconds after a deadline for what is already under way: the grader may look late, where the machine is busy."""
 
@@ -32,9 +34,9 @@ class Used:
     """
 
     def __init__(self, pid: int | None = None) -> None:
-        self._pid = pid
-        self._processes: list[psutil.Process] = []
-        self._begun, self._before = monotonic(), 0.0
+        self.nobody = pid is None
+        self._processes = [] if pid is None else tree(pid)
+        self._begun, self._before = monotonic(), self._total()
 
     def mark(self) -> None:
         """A call begins."""
@@ -50,24 +52,15 @@ class Used:
     @property
     def seconds(self) -> float:
         """Of processor time since then."""
-        return self._total() - self._before if self._pid is not None else monotonic() - self._begun
+        return monotonic() - self._begun if self.nobody else self._total() - self._before
 
     @property
     def awake(self) -> bool:
         """Whether one of them runs, or would run if it could."""
-        return any(map(_is_awake, self._members()))
+        return any(map(_is_awake, self._processes))
 
     def _total(self) -> float:
-        return sum(map(_processor_time, self._members()))
-
-    def _members(self) -> list[psutil.Process]:
-        if self._pid is not None and len(self._processes) < 2:
-            try:
-                process = psutil.Process(self._pid)
-                self._processes = [process, *process.children(recursive=True)]
-            except psutil.Error:
-                self._processes = []
-        return self._processes
+        return sum(map(_processor_time, self._processes))
 
 
 class Clock:

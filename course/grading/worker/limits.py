@@ -153,10 +153,10 @@ class Budget:
                 if not watched:
                     self._thread = None
                     return
-            for pid, (_, tree) in watched:
-                if looks % COUNT == 0 or not tree:
-                    tree[:] = _tree(pid)
-            held = {pid: sum(map(_resident, tree)) for pid, (_, tree) in watched}
+            for pid, (_, members) in watched:
+                if looks % COUNT == 0 or not members:
+                    members[:] = tree(pid)
+            held = {pid: sum(map(_resident, members)) for pid, (_, members) in watched}
             if sum(held.values()) > self._memory:
                 worst = max(held, key=held.__getitem__)
                 self._watched.get(worst, watched[0][1])[0](
@@ -168,12 +168,13 @@ class Budget:
 
 def end_tree(pid: int) -> None:
     """Kill a process and all that it has started, in whatever group or session; nothing if it has ended."""
-    for process in _tree(pid):
+    for process in tree(pid):
         with suppress(psutil.Error):
             process.kill()
 
 
-def _tree(pid: int) -> list[psutil.Process]:
+def tree(pid: int) -> list[psutil.Process]:
+    """A process and all that it has started; empty if it has ended."""
     try:
         process = psutil.Process(pid)
         return [process, *process.children(recursive=True)]

@@ -79,7 +79,6 @@ class Process:
             "limits": {
                 "CPU": self._limits.cpu_seconds,
                 "AS": self._limits.memory,
-                "DATA": self._limits.memory,
                 "CORE": 0,
                 "FSIZE": 0,
                 "NOFILE": 64,
@@ -113,7 +112,7 @@ class Process:
         )
         self._drain.start()
         self._budget.watch(self._process.pid, partial(self._end, self._process))
-        self._used = Used(self._process.pid)
+        self._used = Used()
 
     @property
     def ended(self) -> str:
@@ -165,12 +164,16 @@ class Process:
         ``deadline``: as in ``write``
         """
         try:
-            return unpack(self._reader(deadline), generators=False)
+            reply = unpack(self._reader(deadline), generators=False)
         except BrokenMessage as error:
             raise self.lost(f"what it wrote is no reply ({error})") from None
         except MemoryError:
             # What is left of it in the pipe would be taken for the next reply.
             raise self.lost("its reply is too large for the grader") from None
+        if self._used.nobody and self._process is not None:
+            # With its first reply a sandbox has started all that it is made of.
+            self._used = Used(self._process.pid)
+        return reply
 
     def lost(self, why: str, gone: bool = False) -> StudentError:
         """The error of a process that can't be used any more, and is ended; with what has ended it, if it had.
