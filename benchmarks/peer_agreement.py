@@ -41,6 +41,7 @@ from course.benchmarking.tables import Table, print_tables
 from course.effects import PROJECT
 from course.formats.yaml.loading import load_description
 from course.formats.yaml.overriding import Overrides
+from course.grading.known import known
 from course.scene.scene import load_variant
 
 MARK = "python -m benchmarks.peer_agreement"
@@ -157,9 +158,8 @@ def with_mitsubas_masking(folder: Path) -> Path:
     """The course's solutions with the product of two G1, which is what Mitsuba multiplies by, written to a folder."""
     for file in (PROJECT / "solutions").glob("*.py"):
         shutil.copy(file, folder)
-    product = PROJECT / "solutions" / "wrong" / "microfacets" / "g2_product.py"
-    with (folder / "microfacets.py").open("a", encoding="utf-8") as file:
-        file.write("\n\n" + product.read_text(encoding="utf-8"))
+    (product,) = (one for one in known("microfacets") if one.name == "g2_product")
+    (folder / "microfacets.py").write_text(product.source, encoding="utf-8")
     return folder
 
 

@@ -1,16 +1,12 @@
 """Render a scene to a picture: choose a film, a schedule and an executor for what was asked for."""
 
-import os
-import sys
 from contextlib import ExitStack, closing
 from dataclasses import replace
-from functools import partial
 from time import monotonic
 from typing import Any
 
 from course import __version__
-from course.casters.choice import VARIABLE, chosen
-from course.compiled.library import available as packets_available
+from course.casters.choice import chosen
 from course.core.film import AnyFilm
 from course.core.schedule import Progress, Schedule
 from course.core.schedule import render as render_film
@@ -20,22 +16,20 @@ from course.errors import CourseError
 from course.jobs.job import Job, Mode, check_memory, chosen_settings
 from course.jobs.picture import Picture
 from course.jobs.receipt import Receipt
-from course.rendering.binding import bind, skipped_modules
+from course.rendering.binding import skipped_modules
 from course.rendering.developing import developing
 from course.rendering.memory import keep_freed_memory
 from course.rendering.not_written import lines_named
 from course.rendering.threads import Pool, ThreadedExecutor, default_threads
 from course.rendering.uniform import TIMED, UNIFORM
+from course.rendering.which_loops import (
+    choose_loops,
+    loops_of_cluster,
+    may_change_over,
+    read_first,
+    wants_compiled,
+)
 from course.scene.scene import Denoising, Scene, Settings
-
-WORTH_COMPILED = 5_000_000
-"""Camera rays from which on compiled loops save more than Numba takes to get ready."""
-
-WORTH_READING = 50_000
-"""Pixels from which on any error to aim at takes so many samples that compiled loops are worth their reading."""
-
-NO_COMPILER = "COURSE_NO_COMPILER"
-"""Environment variable: if it is set, nothing is compiled but by ``compiled=True``."""
 
 
 def render(
@@ -96,65 +90,48 @@ def render(
     settings = _asked(
         scene.settings, spp, size, sampler, seed, error, denoise, ends_early=time_limit is not None
     )
-    packets = _use_compiled(settings, compiled)
-    later = packets and not compiled and address is None and _may_change_over(settings)
-    job = Job(scene, settings, time_limit, start, packets and not later)
+    job = Job(scene, settings, time_limit, start)
     mode = _mode(settings, time_limit)
+    _check(job, mode, threads, address)
+    bound = Bound(scene.effects, scene.compiled.needs)
+    began = monotonic()
+    with lines_named(scene, bound), ExitStack() as closed:
+        executor: ThreadedExecutor
+        if address is None:
+            loops = choose_loops(scene, settings, bound, compiled, time_limit, closed)
+            executor = pool = Pool(loops.tracer, threads or default_threads())
+            if loops.take_over is not None:
+                closed.enter_context(loops.take_over(pool))
+        else:
+            from course.cluster.executor import Cluster
+
+            loops, packets = loops_of_cluster(scene, settings, bound, compiled)
+            executor = Cluster(address, scene, settings, packets)
+        closed.enter_context(closing(executor))
+        display = developing(scene, settings, bound)
+        film, schedule = mode.make(replace(job, compiled=loops.film), loops.tracer, bound)
+        if time_limit is not None:
+            executor.limit_time(time_limit, since)
+        complete = render_film(film, schedule, executor, progress)
+    receipt = _receipt(job, bound, loops.tracer, film, schedule, executor, monotonic() - began)
+    settings = replace(settings, display=display)
+    return Picture(film, settings, receipt, complete, executor.interrupted)
+
+
+def _check(job: Job, mode: Mode, threads: int | None, address: str | None) -> None:
+    """Raise an error for what doesn't go together; see ``render``."""
     mode.check(job)
-    if start is not None:
-        _check_start(settings, start.settings)
-    check_memory(settings, mode.bytes_a_pixel)
+    if job.start is not None:
+        _check_start(job.settings, job.start.settings)
+    check_memory(job.settings, mode.bytes_a_pixel)
     if address is not None and threads is not None:
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"
         )
-    if address is not None and scene.effects.mixed:
+    if address is not None and job.scene.effects.mixed:
         raise CourseError(
             'a cluster gets one folder of functions; "mine" is for renders on this machine'
         )
-    bound = Bound(scene.effects, scene.compiled.needs)
-    began = monotonic()
-    if packets:
-        from course.rendering import background_compile as loops
-    with lines_named(scene, bound), ExitStack() as closed:
-        if packets and not later and compiled is None and address is None:
-            closed.enter_context(loops.compiling_told())
-        tracer = None
-        unread = later and _read_first(settings, time_limit)
-        if unread:
-            make = partial(bind, scene, settings, bound, True)
-            if (tracer := loops.read(make, scene.effects)) is not None:
-                later = False
-                if not scene.effects.all_own:
-                    # Whatever is compiled when it is first called.
-                    closed.enter_context(loops.compiling_told())
-                job = replace(job, compiled=settings.error is None or loops.film_is_read())
-                if not job.compiled:
-                    loops.compile_loops(scene, settings)
-        if tracer is None:
-            tracer = bind(scene, settings, bound, packets and not later and address is None)
-        display = developing(scene, settings, bound)
-        film, schedule = mode.make(job, tracer, bound)
-        executor: ThreadedExecutor
-        if address is None:
-            executor = pool = Pool(tracer, threads or default_threads())
-            if later:
-                make = partial(bind, scene, settings, None, True)
-                compiler = loops.BackgroundCompiler(
-                    pool, make, scene, settings, tried_to_read=unread
-                )
-                closed.enter_context(closing(compiler))
-        else:
-            from course.cluster.executor import Cluster
-
-            executor = Cluster(address, scene, settings, packets)
-        closed.enter_context(closing(executor))
-        if time_limit is not None:
-            executor.limit_time(time_limit, since)
-        complete = render_film(film, schedule, executor, progress)
-    receipt = _receipt(job, bound, tracer, film, schedule, executor, monotonic() - began)
-    settings = replace(settings, display=display)
-    return Picture(film, settings, receipt, complete, executor.interrupted)
 
 
 def _asked(
@@ -208,8 +185,8 @@ def reads_loops_first(
     settings = _asked(
         settings, spp, size, sampler, seed, error, denoise, ends_early=time_limit is not None
     )
-    later = _use_compiled(settings, None) and _may_change_over(settings)
-    return later and _read_first(settings, time_limit)
+    later = wants_compiled(settings, None) and may_change_over(settings)
+    return later and read_first(settings, time_limit)
 
 
 def _mode(settings: Settings, time_limit: float | None) -> Mode:
@@ -234,39 +211,6 @@ def _check_start(*settings: Settings) -> None:
     for each in settings:
         if (picture := _mode(each, None).final) is not None:
             raise CourseError(f"{picture} can't be continued; start afresh")
-
-
-def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
-    if wanted and not packets_available():
-        raise CourseError(
-            "compiled loops need Numba (pip install .[fast]), and a caster that they can call:"
-            f" {VARIABLE} must not be numpy"
-        )
-    if wanted is not None:
-        return wanted
-    if os.environ.get(NO_COMPILER):
-        return False
-    rays = settings.width * settings.height * settings.samples
-    return packets_available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
-
-
-def _may_change_over(settings: Settings) -> bool:
-    """True if NumPy may begin and compiled loops go on.
-
-    Corners of cells are no pieces of work: their tracer is compiled before they begin.
-    """
-    return settings.subdivision is None
-
-
-def _read_first(settings: Settings, time_limit: float | None) -> bool:
-    """True if the render will surely take longer than loops take to be read, so that NumPy needn't begin."""
-    if "numba" in sys.modules:
-        return True
-    if time_limit is not None:
-        # So that there is something to be seen soon.
-        return False
-    pixels = settings.width * settings.height
-    return settings.error is None or pixels >= WORTH_READING
 
 
 def _receipt(

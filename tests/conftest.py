@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene
-from course import render_scene as rendering
+from course.rendering import which_loops
 from course.rendering.threads import default_threads
 from tests.browser import browser
 from tests.forms import FORMS
@@ -89,8 +89,8 @@ def each_form(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -
     def chosen(_settings: object, wanted: bool | None) -> bool:
         return form if wanted is None else wanted
 
-    monkeypatch.setattr(rendering, "_use_compiled", chosen)
-    monkeypatch.setattr(rendering, "_may_change_over", lambda *_: False)
+    monkeypatch.setattr(which_loops, "wants_compiled", chosen)
+    monkeypatch.setattr(which_loops, "may_change_over", lambda *_: False)
     return form
 
 

@@ -177,7 +177,7 @@ def test_one_file_knows_embree() -> None:
             "import_module('course.rendering.binding')",
             "up to layer 8",
         ),
-        ("course.compiled.surface", "import course.formats.meshes.ply", "stand side by side"),
+        ("course.compiled.fused", "import course.formats.meshes.ply", "stand side by side"),
         ("course.effects", "import solutions.supersampling", "chosen when a scene is loaded"),
         ("course.effects", "importlib.import_module('solutions')", "chosen when a scene is loaded"),
         ("course.core.vectors", "import scipy", "NumPy and embreex only"),

@@ -67,7 +67,8 @@ class Scattering(NamedTuple):
     outside : (M,) int16, (0,) if vacuum is around all dielectrics
     lobe_material, lobe_kind, lobe_parameter : (K,) of the lobes; the parameter is what the functions multiply by
     lobe_width : (K,) random numbers
-    lobe_pair : pair of dimensions at depth 0
+    lobe_shift : (K,) pairs by which a lobe's numbers stand behind those of the widest, where they are drawn before
+    lobe_pair : pair of dimensions at depth 0, of the widest lobe
     first, worth : of ``ConvexObjects``; (0,) where no ray is spared
     """
 
@@ -78,6 +79,7 @@ class Scattering(NamedTuple):
     lobe_kind: Indices
     lobe_parameter: Floats32
     lobe_width: Indices
+    lobe_shift: Indices
     lobe_pair: int
     first: Numbers
     worth: Mask
@@ -321,9 +323,10 @@ def jitter(scattering, numbers, pair, same, call, s, whole, counts):
             found += kept & (m == scattering.lobe_material[k])
         if found == 0:
             continue
-        draw(numbers, pair, 2, same, s, whole, U)
+        first = pair + scattering.lobe_shift[k]
+        draw(numbers, first, 2, same, s, whole, U)
         if scattering.lobe_width[k] > 2:
-            draw(numbers, pair + 1, 1, same, s, whole, U + 2 * WIDTH)
+            draw(numbers, first + 1, 1, same, s, whole, U + 2 * WIDTH)
         counts[GLOSSY] += scattering.lobe_width[k] * found
         _jitter(scattering, k, call, s, whole)
 

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from course.core.types import Floats32, Floats64, Indices, Mask, Numbers
+from course.core.types import Floats32, Floats64, Mask, Numbers
 from course.core.vectors import cross, dot
 from course.extras.boxes import roomy_box
 
@@ -32,9 +31,6 @@ _PROBES, _CANDIDATES = 512, 4096
 _NOWHERE = np.full((2, 3), 3e38, np.float32)
 """The box of an object without triangles: no ray gets there."""
 
-Objects = NDArray[np.int8]
-"""Numbers of convex objects, -1 for none."""
-
 
 @dataclass(frozen=True)
 class ConvexObjects:
@@ -50,23 +46,6 @@ class ConvexObjects:
     first: Numbers
     worth: Mask
     boxes: Floats32
-
-    def remaining(
-        self, origin: Floats32, direction: Floats32, limit: Floats32, left: Objects
-    ) -> Indices:
-        """Which rays (n,) may meet anything, by a compiled loop; no others can.
-
-        Parameters
-        ----------
-        origin, direction : (3, N) float32
-        limit : (N,) or (1,) float32
-        left : (N,) the convex object that each ray leaves
-        """
-        from course.compiled import box_kernels
-
-        which = np.empty(direction.shape[1], np.int64)
-        arrays = map(np.ascontiguousarray, (origin, direction, limit, left))
-        return which[: box_kernels.remaining(*arrays, self.boxes, which)]
 
 
 def convex_objects(

@@ -1,14 +1,36 @@
 """Compiled loops in the place of a tracer's stages: the fused loop where it knows all that a scene uses."""
 
-from course.compiled.fused import fits, fused
+from dataclasses import replace
+
+from course.compiled.fits import fits
+from course.compiled.light_tree import compiled_choice
 from course.core.tracer import Tracer
+from course.extras.direct import FullDirectLight
+from course.extras.light_choice import LightChoice
+
+
+def has_loops(tracer: Tracer) -> bool:
+    """True if anything of a scene has a compiled form; no loop is read to say so."""
+    choice = _choice(tracer)
+    return fits(tracer) or compiled_choice(choice) is not choice
 
 
 def compiled(tracer: Tracer) -> Tracer:
-    """The tracer with compiled loops."""
+    """The tracer with compiled loops; of a scene that doesn't fit them, with the walk down its tree of lights alone."""
     if fits(tracer):
-        return fused(tracer)
-    # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
-    from course.compiled import stages
+        # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
+        from course.compiled.fused import fused
 
-    return stages.compiled(tracer)
+        return fused(tracer)
+    choice = _choice(tracer)
+    if choice is None:
+        return tracer
+    integrator = tracer.integrator
+    assert isinstance(integrator.direct, FullDirectLight)
+    direct = replace(integrator.direct, choice=compiled_choice(choice))
+    return replace(tracer, integrator=replace(integrator, direct=direct))
+
+
+def _choice(tracer: Tracer) -> LightChoice | None:
+    direct = tracer.integrator.direct
+    return direct.choice if isinstance(direct, FullDirectLight) else None

@@ -1,7 +1,7 @@
-"""Which scenes the fused loop can follow, and what it is handed for them."""
+"""What the fused loop is handed of a scene that ``fits`` it, tile by tile."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -13,177 +13,70 @@ from course.compiled import (
     fused_kernels,
     lamp_kernels,
     lanes,
+    mesh_kernels,
     number_kernels,
     numpy_kernels,
     path_kernels,
 )
-from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
+from course.compiled.fits import makes_camera_rays
 from course.compiled.packets import WIDTH, aligned
-from course.core.accelerator import StaticAccelerator
-from course.core.camera import Camera, Lens
+from course.compiled.scene_tables import SceneTables, scene_tables
+from course.core.camera import Lens
 from course.core.counters import Counters
 from course.core.direct import ROUNDING, DirectLight
-from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
-from course.core.gloss import Gloss, Lobe
+from course.core.environment import ConstantEnvironment, CubeEnvironment
+from course.core.gloss import Lobe
 from course.core.integrator import CancelledError, Integrator
 from course.core.lights.point import DirectionalLight, PointLight
 from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sample import Light
 from course.core.lights.sphere import SphereLight
 from course.core.materials import Lookup
-from course.core.motion import Motion, MovingAccelerator
-from course.core.rays import Dimensions
+from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
-from course.core.scatter import Scatter
 from course.core.tiles import Area
 from course.core.tracer import Tracer
-from course.core.types import Floats32
+from course.core.types import Floats32, Indices
 from course.extras.absorption import Absorption
-from course.extras.direct import FullDirectLight
-from course.extras.environment_sampling import ProductSampling
+from course.extras.mesh_light import MeshLight
 from course.extras.near_plane import NearPlaneCamera
-from course.extras.own import courses_own
-from course.extras.own_lamp import LampAccelerator
 from course.extras.path_tracing import Glow, PathIntegrator
 from course.extras.plan import BOUNCE, CHOICE, same_fields
 from course.extras.samplers.sobol import SobolSampler
-from course.extras.scatter import FullScatter
-from course.extras.sky import COST, NUMBERS, Sky
-from course.extras.surface import FullSurface
-from course.extras.swept_movers import SweptMovers
+from course.extras.sky import COST, NUMBERS
 from course.extras.visible_sphere import VisibleSphereLight
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
+_NO_NUMBERS = np.empty((0, 0), np.float32)
 _NO_FACES = np.empty((6, 0, 0, 3), np.float32)
 _NOWHERE, _NO_BOXES = np.zeros(3, np.float32), np.empty((0, 3), np.float32)
 
-DEEPEST = 64
-"""Most bounces: the loop keeps room for the rays of each depth."""
+OF_PATH = frozenset(("pixel", "lens", "time"))
+"""Names of the dimensions that a path draws once."""
 
 SMALLEST = 16384
 """Camera rays in a tile, at least: beside so many, its memory and its place in the film take little time."""
 
 _SPHERES = {
-    "sphere": (lamp_kernels.SPHERE, "point_on_sphere"),
-    "ball": (lamp_kernels.BALL, "point_in_ball"),
-    "facing disk": (lamp_kernels.FACING_DISK, "point_on_facing_disk"),
+    "sphere": lamp_kernels.SPHERE,
+    "ball": lamp_kernels.BALL,
+    "facing disk": lamp_kernels.FACING_DISK,
 }
 _LOBES = {
-    "plane": (bounce_kernels.PLANE, "jitter_on_plane"),
-    "ball": (bounce_kernels.IN_BALL, "jitter_in_ball"),
-    "phong": (bounce_kernels.PHONG, "sample_phong_lobe"),
+    "plane": bounce_kernels.PLANE,
+    "ball": bounce_kernels.IN_BALL,
+    "phong": bounce_kernels.PHONG,
 }
-
-
-def fits(tracer: Tracer) -> bool:
-    """True if the fused loop knows all that a scene uses, and the functions are the course's own."""
-    integrator = tracer.integrator
-    return (
-        numpy_kernels.AVAILABLE
-        and (type(integrator) is Integrator or _fits_paths(integrator))
-        # Not one that draws other numbers, as division by contrast has it.
-        and type(tracer.sampler) is SobolSampler
-        and integrator.max_depth <= DEEPEST
-        and _fits_camera(integrator.camera)
-        and _fits_motion(integrator.motion)
-        and _fits_surface(integrator.surface)
-        and _fits_environment(integrator.environment)
-        and _fits_direct_light(integrator.direct)
-        and _fits_scatter(integrator.scatter)
-        and isinstance(integrator.absorption, Absorption | None)
-    )
-
-
-def _fits_paths(integrator: Integrator) -> bool:
-    if type(integrator) is not PathIntegrator:
-        return False
-    if integrator.lamps_and_lobes is not None or integrator.objects is not None:
-        return False
-    functions = integrator.bounce.path_tracing
-    names = ("diffuse_bounce", "throughput", "russian_roulette")
-    return functions is None or all(
-        courses_own(getattr(functions, name)) for name in names if name in vars(functions)
-    )
-
-
-def _fits_camera(camera: Camera) -> bool:
-    if type(camera) not in (Camera, NearPlaneCamera):
-        return False
-    lens = camera.lens
-    if lens is None:
-        return True
-    functions = lens.thin_lens
-    return type(lens) is Lens and all(
-        map(courses_own, (functions.point_on_disk, functions.lens_rays))
-    )
-
-
-def _fits_motion(motion: Motion | None) -> bool:
-    names = ("shutter_times", "displacement", "to_object_space")
-    return motion is None or all(
-        courses_own(getattr(motion.motion_blur, name))
-        for name in names
-        if name in vars(motion.motion_blur)
-    )
-
-
-def _fits_surface(surface: Any) -> bool:
-    seen = surface.turned, surface.kept, surface.through
-    extras = surface.painting, surface.relief, surface.shine, *seen
-    static, moving = (StaticAccelerator, LampAccelerator), (MovingAccelerator, SweptMovers)
-    known = type(surface.accelerator) in (*static, *moving)
-    return isinstance(surface, FullSurface) and known and all(extra is None for extra in extras)
-
-
-def _fits_environment(environment: Environment | None) -> bool:
-    if isinstance(environment, CubeEnvironment):
-        name = "lookup_seamless" if environment.seamless else "lookup"
-        return courses_own(getattr(environment.cube_map, name))
-    return environment is None or type(environment) is ConstantEnvironment
-
-
-def _fits_direct_light(direct: DirectLight | None) -> bool:
-    if direct is None:
-        return True
-    plain = not isinstance(direct, FullDirectLight) or (
-        direct.highlights is None and not direct.lifted and direct.choice is None
-    )
-    lamps = all(_lamp(light) is not None for light in direct.lights)
-    return plain and lamps and (direct.sky is None or _fits_sky(direct.sky))
-
-
-def _fits_sky(sky: Any) -> bool:
-    environment = sky.environment if type(sky) is Sky else None
-    return (
-        isinstance(environment, CubeEnvironment)
-        and _fits_environment(environment)
-        and isinstance(sky.sampling, ProductSampling)
-    )
-
-
-def _fits_scatter(scatter: Scatter | None) -> bool:
-    if scatter is None:
-        return True
-    if isinstance(scatter, FullScatter) and (
-        scatter.conductors is not None or scatter.rough or scatter.microfacets or scatter.keeps
-    ):
-        return False
-    gloss = scatter.gloss
-    return gloss is None or (type(gloss) is Gloss and all(map(_fits_lobe, gloss.lobes)))
-
-
-def _fits_lobe(lobe: Lobe) -> bool:
-    functions = getattr(lobe.glossy, _LOBES[lobe.kind][1]), lobe.glossy.keep_above
-    return all(map(courses_own, functions))
 
 
 def fused(tracer: Tracer) -> "FusedTracer":
     """The tracer with the fused loop, of a scene that ``fits``."""
-    integrator, surface = tracer.integrator, tracer.integrator.surface
-    packets = in_packets(surface.accelerator, surface.triangles.parts)
-    integrator = replace(integrator, surface=replace(surface, accelerator=packets))
-    return FusedTracer(**same_fields(tracer) | {"integrator": integrator, "smallest": SMALLEST})
+    known = same_fields(tracer)
+    if type(tracer.sampler) is SobolSampler:
+        # The numbers of other samplers belong to a tile.
+        known["smallest"] = SMALLEST
+    return FusedTracer(**known)
 
 
 @dataclass(frozen=True)
@@ -196,8 +89,8 @@ class _Lamp:
     radius: float = 0.0
 
 
-def _lamp(light: Light) -> _Lamp | None:
-    """A light as the loop knows it; None if it doesn't."""
+def _lamp(light: Light) -> _Lamp:
+    """A light as the loop knows it."""
     nowhere = _NOWHERE
     if type(light) is DirectionalLight:
         return _Lamp(lamp_kernels.FAR_AWAY, (light.to_light, nowhere, nowhere, nowhere))
@@ -205,21 +98,17 @@ def _lamp(light: Light) -> _Lamp | None:
         place: Any = (light.position, nowhere, nowhere)
         return _Lamp(lamp_kernels.AT_A_POINT, *_emitting(light, place))
     if type(light) is RectangleLight:
-        if not courses_own(light.soft_shadows.point_on_rectangle):
-            return None
         place = light.corner, light.edge_u, light.edge_v
         return _Lamp(lamp_kernels.RECTANGLE, *_emitting(light, place))
     if type(light) is VisibleSphereLight:
         return _Lamp(
             lamp_kernels.VISIBLE, (light.center, nowhere, nowhere, nowhere), radius=light.radius
         )
-    if type(light) is not SphereLight or (light.emitter and light.samples != "sphere"):
-        return None
-    kind, name = _SPHERES[light.samples]
-    if not courses_own(getattr(light.soft_shadows, name)):
-        return None
+    if type(light) is MeshLight:
+        return _Lamp(lamp_kernels.TRIANGLES, (nowhere, nowhere, nowhere, nowhere))
+    assert isinstance(light, SphereLight)
     place = light.center, nowhere, nowhere, nowhere
-    return _Lamp(kind, place, int(light.emitter), light.radius)
+    return _Lamp(_SPHERES[light.samples], place, int(light.emitter), light.radius)
 
 
 def _emitting(light: PointLight | RectangleLight, place: Any) -> tuple[Any, int]:
@@ -230,7 +119,7 @@ def _emitting(light: PointLight | RectangleLight, place: Any) -> tuple[Any, int]
 
 
 def _lights(lights: tuple[Light, ...], dimensions: Dimensions) -> lamp_kernels.Lights:
-    lamps = [lamp for light in lights if (lamp := _lamp(light)) is not None]
+    lamps = [_lamp(light) for light in lights]
     n = len(lamps)
     radius = np.array([lamp.radius for lamp in lamps])
     with np.errstate(divide="ignore"):
@@ -251,6 +140,35 @@ def _lights(lights: tuple[Light, ...], dimensions: Dimensions) -> lamp_kernels.L
             np.int64,
         ),
         width=np.array([light.width for light in lights], np.int64),
+        meshes=_meshes(lights),
+    )
+
+
+def _meshes(lights: tuple[Light, ...]) -> mesh_kernels.Meshes:
+    """Triangles of the lights that have some, light by light."""
+    own = [light if isinstance(light, MeshLight) else None for light in lights]
+    found = [light for light in own if light is not None]
+
+    def starts(count: Callable[[MeshLight], int]) -> Indices:
+        return np.cumsum([0, *(0 if light is None else count(light) for light in own)])
+
+    def joined(arrays: Iterable[Any], empty: Any = _NONE) -> Any:
+        return np.ascontiguousarray(np.concatenate([empty, *arrays]))
+
+    table, groups = np.empty((0, 8), np.float32), [light.groups for light in found]
+    return mesh_kernels.Meshes(
+        group=starts(lambda light: len(light.groups.share)),
+        place=starts(lambda light: len(light.shares)),
+        triangle_of=starts(lambda light: len(light.planes)),
+        trust=np.array([0 if light is None else light.groups.trust for light in own], np.float32),
+        moments=joined((each.moments.T for each in groups), np.empty((0, 10), np.float32)),
+        share=joined(each.share for each in groups),
+        start=joined(each.start for each in groups),
+        last=joined(each.last for each in groups),
+        shares=joined(each.shares for each in groups),
+        triangle=joined((each.triangle for each in groups), np.empty(0, np.int64)),
+        planes=joined((light.planes for light in found), table),
+        edges=joined((light.edges for light in found), table),
     )
 
 
@@ -268,12 +186,15 @@ def _parameter(lobe: Lobe) -> float:
     return float(lobe.parameter)
 
 
-def _scattering(integrator: Integrator, dimensions: Dimensions) -> bounce_kernels.Scattering:
-    scatter, accelerator = integrator.scatter, integrator.surface.accelerator
+def _scattering(
+    integrator: Integrator, dimensions: Dimensions, tables: SceneTables, narrow: int
+) -> bounce_kernels.Scattering:
+    scatter = integrator.scatter
     lobes = scatter.gloss.lobes if scatter is not None and scatter.gloss is not None else ()
     first, worth = np.empty(0, np.int32), np.empty(0, np.bool_)
-    if isinstance(accelerator, PacketAccelerator) and accelerator.convex is not None:
-        first, worth = accelerator.convex.first, accelerator.convex.worth
+    if tables.convex is not None:
+        first, worth = tables.convex.first, tables.convex.worth
+    widest = max((lobe.width for lobe in lobes), default=0)
     outside = np.empty(0, np.int16)
     if scatter is not None and scatter.outside is not None:
         outside = scatter.outside.astype(np.int16)
@@ -282,9 +203,10 @@ def _scattering(integrator: Integrator, dimensions: Dimensions) -> bounce_kernel
         refraction_index=_NONE if scatter is None or scatter.index is None else scatter.index.rows,
         outside=outside,
         lobe_material=np.array([lobe.material for lobe in lobes], np.int64),
-        lobe_kind=np.array([_LOBES[lobe.kind][0] for lobe in lobes], np.int64),
+        lobe_kind=np.array([_LOBES[lobe.kind] for lobe in lobes], np.int64),
         lobe_parameter=np.array([_parameter(lobe) for lobe in lobes], np.float32),
         lobe_width=np.array([lobe.width for lobe in lobes], np.int64),
+        lobe_shift=np.array([narrow * (lobe.width < widest) for lobe in lobes], np.int64),
         lobe_pair=dimensions.first("gloss", 0) // 2 if lobes else 0,
         first=first,
         worth=worth,
@@ -319,23 +241,17 @@ def _surroundings(integrator: Integrator) -> fused_kernels.Surroundings:
     return fused_kernels.Surroundings(color, faces, seamless, depth)
 
 
-def _scene(integrator: Integrator) -> fused_kernels.Scene:
-    triangles, accelerator = integrator.surface.triangles, integrator.surface.accelerator
-    assert isinstance(accelerator, PacketAccelerator | MovingPackets)
-    tables, first, objects = accelerator.tables, np.zeros(1, np.int64), _NO_BOXES
-    if isinstance(accelerator, MovingPackets):
-        first = accelerator.numbers
-    elif accelerator.convex is not None:
-        objects = accelerator.convex.boxes
+def _scene(integrator: Integrator, tables: SceneTables) -> fused_kernels.Scene:
+    triangles = integrator.surface.triangles
     normals, bulge = triangles.corner_normals, triangles.bulge
     return fused_kernels.Scene(
-        *(tables.scenes, tables.blockers, tables.velocity, tables.boxes, first),
+        *(tables.scenes, tables.blockers, tables.velocity, tables.boxes, tables.first),
         *(triangles.planes, triangles.edges, triangles.inset),
         _NO_ROWS if normals is None else normals,
         _NO_BOXES if bulge is None else bulge,
         triangles.material,
         np.float32(triangles.largest_sine + ROUNDING),
-        objects,
+        _NO_BOXES if tables.convex is None else tables.convex.boxes,
     )
 
 
@@ -368,9 +284,11 @@ def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
     specular = None if direct is None else direct.specular
     shaded = None if direct is None else direct.shaded
     dark = integrator.dark_inside
-    glow, emission = _rows(integrator.glow), _rows(integrator.emission)
+    glow, emission, objects = _rows(integrator.glow), _rows(integrator.emission), _NO_COLUMNS
     if isinstance(integrator, PathIntegrator):
-        glow, emission = _glows(integrator.unsought), _glows(integrator.lamps)
+        glow, emission, objects = (
+            _glows(each) for each in (integrator.unsought, integrator.lamps, integrator.objects)
+        )
     return fused_kernels.Reflectances(
         np.zeros((3, materials), np.float32) if direct is None else direct.diffuse.rows,
         _rows(specular),
@@ -380,19 +298,30 @@ def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
         np.empty(0, np.bool_) if dark is None else dark,
         glow,
         emission,
+        objects,
         absorption.coefficient.rows if isinstance(absorption, Absorption) else _NO_COLUMNS,
         absorption.dielectric if isinstance(absorption, Absorption) else np.empty(0, np.bool_),
     )
 
 
+def _coherent_depth(integrator: Integrator) -> int:
+    """Largest depth at which neighbouring rays have similar directions, -1 for none."""
+    if integrator.camera.lens is not None:
+        return -1
+    scatter = integrator.scatter
+    spread = scatter is not None and scatter.gloss is not None
+    return 0 if integrator.motion or spread or isinstance(integrator, PathIntegrator) else 1
+
+
 def _eye(integrator: Integrator, dimensions: Dimensions) -> number_kernels.Eye:
+    """The camera; of no meaning but for its place and direction where rays are made before."""
     camera, motion = integrator.camera, integrator.motion
     velocity = None if motion is None else motion.camera_velocity
     near = camera.near if isinstance(camera, NearPlaneCamera) else 0.0
     axes = camera.origin, camera.right, camera.up, camera.forward
     steps = camera.corner, camera.step_x, camera.step_y
     lens = camera.lens
-    sizes = (0.0, 0.0) if lens is None else (lens.aperture_radius, lens.focus_distance)
+    sizes = (0.0, 0.0) if type(lens) is not Lens else (lens.aperture_radius, lens.focus_distance)
     return number_kernels.Eye(
         np.stack((*axes, *steps, _NOWHERE if velocity is None else velocity)).astype(np.float32),
         np.array((*sizes, near), np.float32),
@@ -412,18 +341,20 @@ class FusedTracer(Tracer):
         integrator, dimensions = self.integrator, self.dimensions
         lights = () if integrator.direct is None else integrator.direct.lights
         stride = dimensions.first("pixel", 1) // 2
+        surface = integrator.surface
+        tables = scene_tables(surface.accelerator, surface.triangles.parts)
         return (
             _eye(integrator, dimensions),
-            _scene(integrator),
+            _scene(integrator, tables),
             _reflectances(integrator),
             _lights(lights, dimensions),
             _sky(integrator.direct, dimensions),
-            _scattering(integrator, dimensions),
+            _scattering(integrator, dimensions, tables, self._pairs * self._draws_before),
             _paths(integrator, dimensions),
             _surroundings(integrator),
             fused_kernels.Depths(
                 integrator.max_depth,
-                integrator.coherent_depth,
+                _coherent_depth(integrator),
                 stride,
                 self._pairs - integrator.max_depth * stride,
             ),
@@ -473,11 +404,7 @@ class FusedTracer(Tracer):
         counters.start()
         block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)
         costs = self.costs(block.size) if self.costs is not None and parts > 1 else None
-        sampler = self.sampler
-        assert isinstance(sampler, SobolSampler)
-        tables = sampler.tables(block, self._pairs)
         x, y = tile.corners()
-        pixels = np.ascontiguousarray(block.pixels)
         weighted = self.reconstruction.sigma is not None
         film = fused_kernels.Film(
             np.empty((3, block.size), np.float32),
@@ -486,7 +413,8 @@ class FusedTracer(Tracer):
             np.array((0, 0, 0, 0) if costs is None else (*costs.prices, COST), np.float32),
             np.zeros(lanes.COUNTS, np.int64),
         )
-        numbers = number_kernels.Numbers(pixels, x, y, samples, *tables)
+        numbers = self._numbers(block, x, y)
+        counters.lap("sampler")
         fused_kernels.follow(numbers, *self._tables, film, self._scratch())
         self._count(block, film.counts, counters)
         counters.lap("trace")
@@ -496,6 +424,55 @@ class FusedTracer(Tracer):
         mean, weight = self.reconstruction.pixels(film.radiance.reshape(pieces), places)
         counters.lap("film")
         return mean if costs is None else costs.with_row(mean, parts), weight
+
+    def _numbers(self, block: Block, x: Floats32, y: Floats32) -> number_kernels.Numbers:
+        """Numbers of a block whose pixels have corners (n,), and its camera rays where the loop doesn't make them."""
+        sampler, integrator, dimensions = self.sampler, self.integrator, self.dimensions
+        draws = Draws(sampler, dimensions, block, Counters())
+        drawn, seen = _NO_NUMBERS, np.empty((9, 0), np.float32)
+        if isinstance(sampler, SobolSampler):
+            tables: Any = sampler.tables(block, self._pairs)
+        else:
+            tables = np.zeros((0, 0, 0), np.uint32), 0, np.zeros((0, 0), np.uint64)
+            drawn = self._drawn(draws)
+        if not makes_camera_rays(self):
+            offsets = draws("pixel").reshape(2, -1, block.samples)
+            across, down = (x[:, None] + offsets[0]).ravel(), (y[:, None] + offsets[1]).ravel()
+            rays = integrator.camera_rays(across, down, draws)
+            seen = np.empty((9, block.size), np.float32)
+            seen[:3], seen[3:6] = rays.origin, rays.direction
+            seen[6] = 0 if rays.time is None else rays.time
+            seen[7:] = offsets.reshape(2, -1)
+        pixels = np.ascontiguousarray(block.pixels)
+        points, first, salts = tables
+        return number_kernels.Numbers(
+            pixels, x, y, block.samples, points, first, salts, drawn, seen
+        )
+
+    @property
+    def _draws_before(self) -> bool:
+        return not isinstance(self.sampler, SobolSampler)
+
+    def _drawn(self, draws: Draws) -> Floats32:
+        """All numbers of a block; behind them those of lobes that take fewer, for a sampler has others for these."""
+        dimensions, integrator, pairs = self.dimensions, self.integrator, self._pairs
+        scatter = integrator.scatter
+        lobes = () if scatter is None or scatter.gloss is None else scatter.gloss.lobes
+        narrow = {lobe.width for lobe in lobes} - {dimensions.width.get("gloss")}
+        drawn = np.empty((2 * pairs * (1 + len(narrow)), draws.block.size), np.float32)
+        for name, width in dimensions.width.items():
+            for depth in range(1 if name in OF_PATH else integrator.max_depth + 1):
+                row = dimensions.first(name, depth)
+                if name == CHOICE[0]:
+                    # Nothing mirrors: roulette alone draws, the second number.
+                    drawn[row + 1] = draws(name, None, depth, 1, skip=1)[0]
+                    continue
+                drawn[row : row + width] = draws(name, None, depth)
+                if name == "gloss":
+                    for few in narrow:
+                        behind = row + 2 * pairs
+                        drawn[behind : behind + few] = draws(name, None, depth, few)
+        return drawn
 
     @cached_property
     def _pairs(self) -> int:

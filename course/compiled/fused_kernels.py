@@ -119,7 +119,10 @@ class Scene(NamedTuple):
 
 
 class Reflectances(NamedTuple):
-    """M materials; see ``course.core.materials`` and ``course.core.integrator``. Without columns where none has one."""
+    """M materials; see ``course.core.materials`` and ``course.core.integrator``. Without columns where none has one.
+
+    ``objects``: radiance from both sides that shadow rays sample, as paths show it
+    """
 
     diffuse: Floats32
     specular: Floats32
@@ -129,6 +132,7 @@ class Reflectances(NamedTuple):
     dark_inside: Mask
     glow: Floats32
     emission: Floats32
+    objects: Floats32
     absorption: Floats32
     dielectric: Mask
 
@@ -452,6 +456,10 @@ def _reflect(materials, s, whole):
         if materials.emission.shape[1]:
             for i in range(WIDTH):
                 s[row + i] += materials.emission[c, np.uint64(whole[MATERIAL + i])] * s[B + i]
+        if materials.objects.shape[1]:
+            for i in range(WIDTH):
+                light = materials.objects[c, np.uint64(whole[MATERIAL + i])]
+                s[row + i] += light if whole[LIT + i] != 0 else _NOTHING
 
 
 @njit(**LEAN)
@@ -653,7 +661,8 @@ def follow(
                         whole[PATH + i] = first_path + first + min(i, count - 1)
                         whole[MEDIUM + i] = whole[LIT + i] = -1
                     same = find_pixels(whole, numbers.samples)
-                    ask_for_next(numbers, first_path + first + WIDTH, depths.seen)
+                    if len(numbers.drawn) == 0:
+                        ask_for_next(numbers, first_path + first + WIDTH, depths.seen)
                     look(numbers, eye, same, scratch.call, s, whole)
                     for i in range(3 * WIDTH):
                         s[THROUGHPUT + i] = _ONE

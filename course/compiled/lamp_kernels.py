@@ -46,6 +46,7 @@ from course.compiled.lanes import (
     E,
     U,
 )
+from course.compiled.mesh_kernels import Meshes, towards_triangles
 from course.compiled.number_kernels import circle, draw
 from course.compiled.occlusion_kernels import occlude
 from course.compiled.options import LEAN
@@ -55,7 +56,7 @@ from course.compiled.packet_kernels import V as HIT_V
 from course.core.lights.sample import CLOSEST, TO_THE_LIGHT
 from course.core.types import Floats32, Indices, Mask
 
-AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE = range(7)
+AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE, TRIANGLES = range(8)
 """Kinds of lights."""
 
 _NOTHING, _ONE, _TWO = np.float32(0), np.float32(1), np.float32(2)
@@ -73,7 +74,7 @@ class Lights(NamedTuple):
 
     Attributes
     ----------
-    kind : (L,) AT_A_POINT ... VISIBLE
+    kind : (L,) AT_A_POINT ... TRIANGLES
     emitter : (L,) 0 for a light by intensity, 1 for one by radiance, 2 if both its sides shine
     place : (L, 4, 3) float32: position, centre, corner or direction to the light; edges; normal
     radius : (L, 4) float32, the radius, its double, -1 / radius, and its square
@@ -81,6 +82,7 @@ class Lights(NamedTuple):
     limit : (L,) float32 length of the shadow rays, in lengths of the vector to the light
     velocity : (L, 3) float32; of no meaning where ``moves`` (L,) is false
     pair, width : (L,) first pair of dimensions at depth 0, and the number of dimensions
+    meshes : of those that are made of triangles
     """
 
     kind: Indices
@@ -93,6 +95,7 @@ class Lights(NamedTuple):
     moves: Mask
     pair: Indices
     width: Indices
+    meshes: Meshes
 
 
 @njit(**LEAN)
@@ -151,6 +154,9 @@ def _sample(lights, k, call, s):
         return
     if kind == VISIBLE:
         _towards_visible(call, s, lights.radius[k, 3], x0, y0, z0)
+        return
+    if kind == TRIANGLES:
+        towards_triangles(lights.meshes, k, s)
         return
     radius, twice, inward = lights.radius[k, 0], lights.radius[k, 1], lights.radius[k, 2]
     if kind == AT_A_POINT:

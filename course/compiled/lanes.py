@@ -26,7 +26,9 @@ the reflectance, behind which BENT and ETA have the cosine and the ratio of indi
 BENT, ETA = SHARE + WIDTH, SHARE + 2 * WIDTH
 PLANE, EDGES, CORNERS = (_FIRST + (54 + number) * WIDTH for number in (0, 8, 15))
 """Columns of the hit triangles in ``Triangles``."""
-ALL_ROWS = 3 * ROWS + 54 + 24
+STRENGTH = _FIRST + 78 * WIDTH
+"""What each group of a light of triangles sends to a point: two rows."""
+ALL_ROWS = 3 * ROWS + 54 + 26
 
 _integers = (number * WIDTH for number in range(14))
 (

@@ -25,14 +25,17 @@ TURN = np.float32(2 * np.pi)
 
 
 class Numbers(NamedTuple):
-    """Sobol numbers of a block's paths.
+    """Numbers of a block's paths: Sobol's are computed, those of other samplers are drawn before, as arrays.
 
     Attributes
     ----------
     pixels : (n,) uint32 of the block
     x, y : (n,) float32 their corners
     samples : of each pixel
-    points, first, salts : see ``SobolSampler.tables``
+    points, first, salts : see ``SobolSampler.tables``; of no meaning where ``drawn`` has columns
+    drawn : (d, n * samples) float32, by dimension; (0, 0) for Sobol's
+    seen : (9, n * samples) float32, camera rays that functions of others have made: origin, direction, time, and
+        position in the pixel; (9, 0) where the loop makes them
     """
 
     pixels: Words
@@ -42,6 +45,8 @@ class Numbers(NamedTuple):
     points: Words
     first: int
     salts: NDArray[np.uint64]
+    drawn: Floats32
+    seen: Floats32
 
 
 class Eye(NamedTuple):
@@ -155,8 +160,19 @@ def _follow(whole):
 
 
 @njit(**LEAN)
+def _take(columns, first, count, s, whole, row):
+    """Rows of some columns, of each path its own."""
+    for k in range(count):
+        for i in range(WIDTH):
+            s[row + k * WIDTH + i] = columns[first + k, np.uint64(whole[PATH + i])]
+
+
+@njit(**LEAN)
 def draw(numbers, pair, width, same, s, whole, row):
     """The numbers of a pair of dimensions into one row, or two; see ``SobolSampler``."""
+    if len(numbers.drawn):
+        _take(numbers.drawn, 2 * pair, width, s, whole, row)
+        return
     salts, orders = numbers.salts, np.uint32(numbers.points.shape[1])
     line = 2 * pair if pair < 2 else 0
     pixel = np.int32(-1)
@@ -196,6 +212,12 @@ def circle(call, s, turns):
 @njit(**LEAN)
 def look(numbers, eye, same, call, s, whole):
     """The rays of ``course.core.camera``, with the functions of ``thin_lens``, and the paths' times."""
+    if numbers.seen.shape[1]:
+        _take(numbers.seen, 0, 3, s, whole, 0)
+        _take(numbers.seen, 3, 3, s, whole, TO)
+        _take(numbers.seen, 6, 1, s, whole, TIME)
+        _take(numbers.seen, 7, 2, s, whole, JITTER)
+        return
     frame = eye.frame
     draw(numbers, 0, 2, same, s, whole, JITTER)
     for i in range(WIDTH):

@@ -37,7 +37,7 @@ def keep(s, time, first, count):
 def shift(s, velocity, box, asked, valid):
     """Shift a packet's origins into a mover's frame, and fill which of the rays that are asked may meet its box.
 
-    The slabs are those of ``box_kernels``. Returns how many may meet it.
+    The slabs are those of ``roomy_box``. Returns how many may meet it.
     """
     for c in range(3):
         for i in range(WIDTH):

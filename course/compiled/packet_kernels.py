@@ -4,12 +4,11 @@ Layout of a packet (Embree 4's rtcore_ray.h): rows of 16 floats or integers, ori
 id, flags; then of the hit Ng, u, v, primID, geomID, instID.
 """
 
-import numpy as np
 from numba import njit, types
 
 from course.compiled import packets
 from course.compiled.library import name_queries
-from course.compiled.options import LEAN, OPTIONS
+from course.compiled.options import LEAN
 
 name_queries()
 
@@ -22,25 +21,8 @@ intersect16 = types.ExternalFunction("rtcIntersect16", _query)
 occluded16 = types.ExternalFunction("rtcOccluded16", _query)
 
 
-@njit(**OPTIONS)
-def aligned(rows):
-    """Memory for rows of 16 floats at an address that 64 divides, as Embree wants it."""
-    memory = np.empty((rows + 1) * WIDTH, np.float32)
-    start = (-memory.ctypes.data & 63) // 4
-    return memory[start : start + rows * WIDTH].reshape(rows, WIDTH)
-
-
 @njit(**LEAN)
 def begin(s, whole):
     """What all rays of a packet that is one array have in common; ``whole`` is the same memory as integers."""
     s[:] = 0
     whole[MASK : MASK + WIDTH] = -1
-
-
-@njit(**OPTIONS)
-def arguments_of(hint):
-    """RTCIntersectArguments: flags, features (all of them), then context and callbacks (none)."""
-    arguments = np.zeros(16, np.uint32)
-    arguments[0] = hint
-    arguments[1] = 0xFFFFFFFF
-    return arguments

@@ -17,7 +17,7 @@ import numpy as np
 from course.casters.choice import chosen
 from course.compiled.library import device, library
 from course.core.accelerator import NO_HIT, Intersections, StaticAccelerator, no_hits
-from course.core.types import Floats32, Indices, Mask, Numbers
+from course.core.types import Floats32, Numbers
 from course.extras.boxes import roomy_box
 
 WIDTH = 16
@@ -32,7 +32,6 @@ _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
 _THREE_UINTS, _THREE_FLOATS = 0x5003, 0x9003
 _ROBUST = 4
 COHERENT = 1 << 16
-_EVERY = np.empty(0, np.int64)
 
 
 def aligned(rows: int) -> Any:
@@ -54,63 +53,9 @@ class PacketScene:
     scene: int
     box: Floats32
 
-    def intersect(
-        self,
-        origin: Floats32,
-        direction: Floats32,
-        limit: Floats32,
-        coherent: bool,
-        which: Indices | None = None,
-    ) -> tuple[Numbers, Floats32, Floats32, Floats32]:
-        """Nearest hits: triangle (N,) int32, -1 where there is none, and u, v, t (N,) float32.
-
-        Parameters
-        ----------
-        origin : (3, N) or (3, 1) float32
-        direction : (3, N) float32
-        limit : (N,) or (1,) float32, the distance beyond which nothing counts, and t of what hits nothing
-        coherent : whether 16 rays that follow each other go much the same way
-        which : (n,) the rays that are asked, in ascending order, for the others hit nothing; None for all
-        """
-        from course.compiled import query_kernels
-
-        n = direction.shape[1]
-        triangle = np.empty(n, np.int32)
-        uvt = np.empty((3, n), np.float32)
-        arrays = map(np.ascontiguousarray, (origin, direction, limit))
-        chosen = _EVERY if which is None else which, which is None
-        hint = COHERENT if coherent else 0
-        query_kernels.intersect(self.scene, *arrays, *chosen, hint, triangle, uvt)
-        return triangle, *uvt
-
     def few(self, origin: Floats32, direction: Floats32) -> Intersections:
         """Nearest hits of a few rays, (3, N) or (3, 1) and (3, N): none of our compiled loops is read for them."""
         raise NotImplementedError
-
-    def unoccluded(self, origin: Floats32, direction: Floats32, limit: float) -> Mask:
-        """Whether nothing lies between origin and origin + limit * direction, (N,) bool."""
-        from course.compiled import query_kernels
-
-        free = np.empty(direction.shape[1], np.bool_)
-        arrays = map(np.ascontiguousarray, (origin, direction))
-        query_kernels.unoccluded(self.scene, *arrays, np.float32(limit), free)
-        return free
-
-    def entering(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Indices:
-        """Which rays meet the box around all triangles within their limits; no others can hit anything.
-
-        Worth its time where most rays pass by: it takes a fifth of what a packet takes to find that out.
-
-        Parameters
-        ----------
-        origin, direction : (3, N) float32
-        limit : (N,) or (1,) float32
-        """
-        from course.compiled import box_kernels
-
-        which = np.empty(direction.shape[1], np.int64)
-        arrays = map(np.ascontiguousarray, (origin, direction, limit))
-        return which[: box_kernels.entering(*arrays, self.box, which)]
 
 
 class EmbreePackets(PacketScene):

@@ -55,15 +55,3 @@ def to_viewer(nx, ny, nz, side, dx, dy, dz):
     scale = _ONE / np.sqrt(max(x * x + y * y + z * z, _LEAST))
     turns = away > 0
     return (x * scale if turns else nx, y * scale if turns else ny, z * scale if turns else nz)
-
-
-@njit(**LEAN)
-def interpolated(k, a, b, side, dx, dy, dz, corner_normals, bends):
-    """The shading normal there, on the side of a ray with a direction."""
-    nx = corner_normals[k, 3] * a + corner_normals[k, 6] * b + corner_normals[k, 0]
-    ny = corner_normals[k, 4] * a + corner_normals[k, 7] * b + corner_normals[k, 1]
-    nz = corner_normals[k, 5] * a + corner_normals[k, 8] * b + corner_normals[k, 2]
-    if bends:
-        return to_viewer(nx, ny, nz, side, dx, dy, dz)
-    scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
-    return nx * scale * side, ny * scale * side, nz * scale * side

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Lock
 from time import perf_counter
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -49,9 +49,6 @@ class Accelerator(Protocol):
         direction: Floats32,
         stats: QueryStats,
         time: Floats32 | None = None,
-        *,
-        coherent: bool = False,
-        excluded: Any = None,
     ) -> Intersections:
         """Nearest hit of each ray.
 
@@ -61,8 +58,6 @@ class Accelerator(Protocol):
         direction : (3, N) float32, any length but 0
         stats : the seconds or the tests of the query are added to it
         time : (N,) float32 of each ray, as a share of the exposure; None if nothing moves
-        coherent : true if neighbouring rays have similar directions, which compiled loops trace faster in packets
-        excluded : the rays' ``Surface.excluded_objects``
         """
 
     def unoccluded(
@@ -121,8 +116,6 @@ class StaticAccelerator:
         stats: QueryStats,
         time: Floats32 | None = None,
         *,
-        coherent: bool = False,
-        excluded: Any = None,
         limit: Floats32 | None = None,
     ) -> Intersections:
         """See ``Accelerator.intersect``; hits beyond ``limit`` (N,) float32 don't count."""

@@ -1,7 +1,6 @@
 """Hits of a batch of rays: points, normals, and origins of the rays that leave them."""
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -80,15 +79,13 @@ class Surface:
         """True if ``turn_to_viewer`` turns interpolated shading normals; a subclass may leave them as they are."""
         return True
 
-    def intersect(
-        self, rays: Rays, stats: QueryStats, coherent: bool, of_camera: bool
-    ) -> Intersections:
+    def intersect(self, rays: Rays, stats: QueryStats, of_camera: bool) -> Intersections:
         """Nearest hits of camera rays, or of bounced rays; see ``Accelerator.intersect``.
 
         Here both are found alike; ``course.extras.surface`` clips camera rays.
         """
         arrays = rays.origin, rays.direction, stats, rays.time
-        return self.accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
+        return self.accelerator.intersect(*arrays)
 
     def hits(
         self,
@@ -175,10 +172,6 @@ class Surface:
         if self.turns_normals:
             turn_to_viewer(normal, direction)
         return normal
-
-    def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """None; the surface of compiled loops returns the convex object that each ray leaves and can't hit again."""
-        return None
 
 
 def turn_to_viewer(ns: Floats32, direction: Floats32) -> None:

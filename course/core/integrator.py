@@ -46,7 +46,6 @@ class Integrator:
     emission : (3, M) radiance emitted from the fronts of the surfaces of lights
     absorption : reduces the throughput along rays in dielectrics (``course.extras.absorption``)
     max_depth : largest number of bounces in this scene
-    coherent_depth : largest depth at which neighbouring rays have similar directions, -1 for none
     """
 
     surface: Surface
@@ -62,7 +61,6 @@ class Integrator:
     absorption: Absorption | None
     scatter: Scatter | None
     max_depth: int
-    coherent_depth: int
 
     def camera_rays(self, x: Floats32, y: Floats32, draws: Draws) -> Rays:
         """Rays through picture points (N,) [pixels], with random points on the lens and random times."""
@@ -129,8 +127,7 @@ class Integrator:
         of them here; in path tracing, those whose last hit hasn't sampled the environment directly.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
-        coherent = depth <= self.coherent_depth
-        found = surface.intersect(rays, counters.embree, coherent, of_camera)
+        found = surface.intersect(rays, counters.embree, of_camera)
         counters.lap("trace")
         if depth <= self.environment_depth and adds_lights is not False:
             self._add_environment(path_radiance, rays, (found.triangle < 0) & adds_lights)

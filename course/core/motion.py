@@ -6,7 +6,6 @@ first, then those of each mover.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -55,19 +54,14 @@ class MovingAccelerator:
         direction: Floats32,
         stats: QueryStats,
         time: Floats32 | None = None,
-        *,
-        coherent: bool = False,
-        excluded: Any = None,
     ) -> Intersections:
         """See ``Accelerator.intersect``."""
         assert time is not None
-        found = self.static.intersect(origin, direction, stats, coherent=coherent)
+        found = self.static.intersect(origin, direction, stats)
         origin = repeated(origin, direction.shape[1])
         for mover in self.movers:
             shifted = self._shifted(origin, mover, time)
-            other = mover.accelerator.intersect(
-                shifted, direction, stats, limit=found.t, coherent=coherent
-            )
+            other = mover.accelerator.intersect(shifted, direction, stats, limit=found.t)
             self._take(found, other, mover)
         return found
 

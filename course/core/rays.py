@@ -35,7 +35,6 @@ class Rays:
     path : (n,) number of the path in the block; None for one ray per path, in order
     medium : (n,) int16, material that the ray travels in, or OPEN; None if nothing absorbs, and for camera rays
     time : (n,) float32, time since the shutter opened, as a fraction of the exposure; None if nothing moves
-    excluded : objects that the rays can't hit, see ``Surface.excluded_objects``
     start : (3, n) float32, the hit points that the rays leave, without the offset of ``origin``; None without a medium
     """
 
@@ -45,7 +44,6 @@ class Rays:
     path: Indices | None
     medium: Media | None = None
     time: Floats32 | None = None
-    excluded: Any = None
     start: Floats32 | None = None
 
     @property

@@ -183,8 +183,7 @@ class Scatter:
             medium = medium.take(which) if boundary is None else self.medium_behind(hits, which)
             start = hits.p.take(which, axis=1)
         time = None if hits.time is None else hits.time.take(which)
-        excluded = self.surface.excluded_objects(hits, which, direction)
-        return Rays(origin, direction, throughput, path, medium, time, excluded, start)
+        return Rays(origin, direction, throughput, path, medium, time, start)
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:

@@ -130,7 +130,6 @@ def plan_integrator(
     ambient = materials.ambient * world.ambient[:, None]
     shows = materials.diffuses | ambient.any(0)
     lamps = False if materials.lamps is None else materials.lamps
-    coherent = -1 if camera.lens else 0 if world.motion or world.lobes else 1
     return Integrator(
         surface=world.surface,
         camera=camera,
@@ -145,7 +144,6 @@ def plan_integrator(
         absorption=None,
         scatter=scatter,
         max_depth=depth,
-        coherent_depth=coherent,
     )
 
 

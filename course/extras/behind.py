@@ -40,14 +40,9 @@ class SeenThrough:
         direction: Floats32,
         stats: QueryStats,
         time: Floats32 | None = None,
-        *,
-        coherent: bool = False,
-        excluded: object = None,
     ) -> Intersections:
         """Nearest hits that are seen; see ``Accelerator.intersect``."""
-        found = self.accelerator.intersect(
-            origin, direction, stats, time, coherent=coherent, excluded=excluded
-        )
+        found = self.accelerator.intersect(origin, direction, stats, time)
         through = self._from_behind(found.triangle, direction)
         while len(through):
             way = direction.take(through, axis=1)

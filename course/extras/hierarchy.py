@@ -47,9 +47,6 @@ class HierarchyAccelerator:
         direction: Floats32,
         stats: QueryStats,
         time: Floats32 | None = None,
-        *,
-        coherent: bool = False,
-        excluded: object = None,
     ) -> Intersections:
         """Nearest hit of each ray; see ``Accelerator.intersect``.
 

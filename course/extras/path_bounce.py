@@ -105,8 +105,7 @@ class PathBounce:
         draws.cast("path", len(which), path)
         if kind is None or self.scatter is None:
             direction = self._diffuse(hits, None if whole else which, path, depth, draws)
-            excluded = self.surface.excluded_objects(hits, which, direction)
-            return Rays(origin, direction, after, path, medium, time, excluded, start), None
+            return Rays(origin, direction, after, path, medium, time, start), None
         scattered, back, through = which[:optical], which[optical:crossing], which[crossing:]
         directions = []
         if optical:
@@ -127,8 +126,7 @@ class PathBounce:
             if medium is not None:
                 medium[crossing:] = self.scatter.medium_behind(hits, through)
         direction = np.concatenate(directions, axis=1)
-        excluded = self.surface.excluded_objects(hits, which, direction)
-        rays = Rays(origin, direction, after, path, medium, time, excluded, start)
+        rays = Rays(origin, direction, after, path, medium, time, start)
         return rays, np.arange(len(which)) >= optical
 
     def _weigh(

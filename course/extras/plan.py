@@ -60,8 +60,6 @@ def plan(
         integrator = replace(integrator, environment_depth=seen)
     if scatter is not None and scatter.absorbs:
         integrator = replace(integrator, absorption=Absorption.of(world.materials, camera))
-    if world.rough or world.microfacets or paths is not None:
-        integrator = replace(integrator, coherent_depth=min(integrator.coherent_depth, 0))
     full = scatter if isinstance(scatter, FullScatter) else None
     rough = [REFRACTION] if full and full.rough else []
     rough += [MICROFACET] if full and full.microfacets else []

@@ -81,16 +81,12 @@ class FullSurface(Surface):
         """The accelerator of camera rays; its ``intersect`` is that of ``Accelerator``."""
         return self.accelerator if self.through is None else self.through
 
-    def intersect(
-        self, rays: Rays, stats: QueryStats, coherent: bool, of_camera: bool
-    ) -> Intersections:
+    def intersect(self, rays: Rays, stats: QueryStats, of_camera: bool) -> Intersections:
         """See ``Surface``; a camera that lies exactly on a surface sees what is in front of it."""
         if not of_camera:
-            return super().intersect(rays, stats, coherent, of_camera)
+            return super().intersect(rays, stats, of_camera)
         origin, direction, time = rays.origin, rays.direction, rays.time
-        found: Intersections = self.camera_accelerator.intersect(
-            origin, direction, stats, time, coherent=coherent
-        )
+        found: Intersections = self.camera_accelerator.intersect(origin, direction, stats, time)
         # A camera ray that starts on a surface hits it at distance 0. It starts again, one offset farther on.
         stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
         if len(stuck) == 0:

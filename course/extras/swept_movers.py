@@ -48,22 +48,17 @@ class SweptMovers(MovingAccelerator):
         direction: Floats32,
         stats: QueryStats,
         time: Floats32 | None = None,
-        *,
-        coherent: bool = False,
-        excluded: Any = None,
     ) -> Intersections:
         """See ``Accelerator.intersect``."""
         assert time is not None
         n = direction.shape[1]
-        found = self.static.intersect(origin, direction, stats, coherent=coherent)
+        found = self.static.intersect(origin, direction, stats)
         origin = repeated(origin, n)
         for number, which in self._met(origin, direction, found.t, np.arange(n)):
             mover = self.movers[number]
             start, toward, when = _some(which, origin, direction, time)
             shifted = self._shifted(start, mover, when)
-            other = mover.accelerator.intersect(
-                shifted, toward, stats, limit=found.t.take(which), coherent=coherent
-            )
+            other = mover.accelerator.intersect(shifted, toward, stats, limit=found.t.take(which))
             self._take(found, other, mover, which)
         return found
 

@@ -222,9 +222,7 @@ def look(
 def _light(solution: Solution, camera: Camera, x: Floats32, y: Floats32) -> Floats32:
     """(3, N) radiance that comes from points of the picture."""
     direction = camera.directions(x, y)
-    found = solution.accelerator.intersect(
-        camera.origin[:, None], direction, QueryStats(), coherent=True
-    )
+    found = solution.accelerator.intersect(camera.origin[:, None], direction, QueryStats())
     hit = np.flatnonzero(found.triangle >= 0)
     light = np.zeros_like(direction)
     triangle, u, v = found.triangle[hit], found.u[hit], found.v[hit]

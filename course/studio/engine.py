@@ -70,7 +70,7 @@ _FILM: dict[str, Callable[..., Any]] = {
 def engines_picture(scene: Scene, settings: Settings) -> Progressive:
     """A picture without a sample yet, by Sobol's points; CourseError if the loops don't know all that the scene has."""
     if settings.subdivision is None and may_compile():
-        from course.compiled.fused import fits
+        from course.compiled.fits import fits
 
         settings = replace(settings, sampler="sobol")
         if fits(bind(scene, settings)):

@@ -18,10 +18,11 @@ from course.core.rays import RAYS
 from course.core.tiles import PASS, Tile, Work, spread_over_cache, tile_picture
 from course.core.types import Floats32
 from course.effects import Bound
-from course.render_scene import NO_COMPILER, render
+from course.render_scene import render
 from course.rendering.binding import bind
 from course.rendering.not_written import lines_named
 from course.rendering.threads import Pool, default_threads
+from course.rendering.which_loops import NO_COMPILER
 from course.scene.scene import Scene, Settings
 
 STAGES = (1, 16, 64, 256)

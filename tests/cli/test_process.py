@@ -210,7 +210,7 @@ def test_a_large_render_reads_its_loops_while_the_scene_is_built(
     program = (
         "import sys\n"
         "from threading import current_thread, main_thread\n"
-        "from course import render_scene\n"
+        "from course.rendering import which_loops\n"
         "from course.cli.main import commands\n"
         "from course.rendering import reading_ahead\n"
         "read = []\n"
@@ -218,7 +218,7 @@ def test_a_large_render_reads_its_loops_while_the_scene_is_built(
         "    read.append(current_thread() is main_thread())\n"
         "    work()\n"
         "reading_ahead._read_loops = noting\n"
-        "render_scene.WORTH_COMPILED, render_scene.WORTH_READING = map(int, sys.argv[1:3])\n"
+        "which_loops.WORTH_COMPILED, which_loops.WORTH_READING = map(int, sys.argv[1:3])\n"
         "commands(sys.argv[3:], standalone_mode=False)\n"
         "print(read, 'numba' in sys.modules, 'numba.np.arraymath' in sys.modules)\n"
         "import numba, numpy\n"
@@ -245,9 +245,9 @@ def test_a_numba_that_refuses_this_numpy_is_done_without(tmp_path: Path, scene: 
     (refusing / "__init__.py").write_text("raise ImportError('Numba needs an older NumPy')\n")
     program = (
         "import sys\n"
-        "from course import render_scene\n"
+        "from course.rendering import which_loops\n"
         "from course.cli.main import commands\n"
-        "render_scene.WORTH_COMPILED = render_scene.WORTH_READING = 1\n"
+        "which_loops.WORTH_COMPILED = which_loops.WORTH_READING = 1\n"
         "commands(sys.argv[1:], standalone_mode=False)\n"
     )
     environment = {key: os.environ[key] for key in os.environ if key != "COURSE_NO_COMPILER"}

@@ -12,6 +12,7 @@ import pytest
 
 from course import SceneError, render
 from course.effects import PROJECT
+from course.grading.known import known
 from course.scene.scene import Scene, load_variant
 from tests.conftest import MakeScene
 from tests.effects.test_hemisphere_directions import FLOOR, check_mean, estimates
@@ -160,11 +161,10 @@ def test_the_product_of_two_g1_in_place_of_g2_returns_less(
     """The student's function is called."""
     mine = tmp_path / "mine"
     mine.mkdir()
-    text = (PROJECT / "solutions" / "microfacets.py").read_text(encoding="utf-8")
-    wrong = PROJECT / "solutions" / "wrong" / "microfacets" / "g2_product.py"
+    (wrong,) = (one for one in known("microfacets") if one.name == "g2_product")
     for file in (PROJECT / "solutions").glob("*.py"):
         (mine / file.name).write_bytes(file.read_bytes())
-    (mine / "microfacets.py").write_text(text + wrong.read_text(encoding="utf-8"), "utf-8")
+    (mine / "microfacets.py").write_text(wrong.source, "utf-8")
     scene = sheet(make_scene, metal(1.0))
     found = estimates(load_variant(scene.path, None, mine))
     assert found.mean() < estimates(scene).mean() - 0.02

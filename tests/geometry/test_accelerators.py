@@ -7,22 +7,14 @@ import numpy as np
 import pytest
 
 from course.casters.choice import static_accelerator
-from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
 from course.core.accelerator import Accelerator, QueryStats, StaticAccelerator
 from course.core.motion import Motion, MovingAccelerator
 from course.core.types import Functions
 from course.extras.hierarchy import HierarchyAccelerator
 from course.extras.swept_movers import SweptMovers
 from solutions import bounding_volumes, motion_blur
-from tests.forms import needs_numba
 
-KINDS = (
-    StaticAccelerator,
-    MovingAccelerator,
-    SweptMovers,
-    HierarchyAccelerator,
-    *(pytest.param(kind, marks=needs_numba) for kind in (PacketAccelerator, MovingPackets)),
-)
+KINDS = (StaticAccelerator, MovingAccelerator, SweptMovers, HierarchyAccelerator)
 QUERIES = ("intersect", "unoccluded")
 
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
@@ -34,11 +26,9 @@ def made(kind: type) -> Accelerator:
     if kind is HierarchyAccelerator:
         return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(**vars(bounding_volumes)), 4)
     still = static_accelerator(VERTICES, TRIANGLES)
-    if kind in (MovingAccelerator, SweptMovers, MovingPackets):
-        of = SweptMovers if kind is SweptMovers else MovingAccelerator
-        moving = of(still, (), Motion(Functions(**vars(motion_blur))))
-        return in_packets(moving) if kind is MovingPackets else moving
-    return in_packets(still) if kind is PacketAccelerator else still
+    if kind in (MovingAccelerator, SweptMovers):
+        return kind(still, (), Motion(Functions(**vars(motion_blur))))
+    return still
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -60,30 +50,11 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
     direction = np.repeat(np.array([[0], [0], [-1]], np.float32), 2, axis=1)
     time = np.zeros(2, np.float32)
     stats = QueryStats()
-    found = accelerator.intersect(origin, direction, stats, time, coherent=True, excluded=None)
+    found = accelerator.intersect(origin, direction, stats, time)
     assert found.triangle.tolist() == [0, -1]
     np.testing.assert_allclose([found.t[0], found.u[0], found.v[0]], [2, 0.25, 0.25], rtol=1e-6)
     assert accelerator.unoccluded(origin, direction, 3.0, stats, time).tolist() == [False, True]
     assert accelerator.unoccluded(origin, direction, 1.5, stats, time).tolist() == [True, True]
-
-
-@needs_numba
-def test_packets_take_the_place_of_embree_alone() -> None:
-    for kind, other in (
-        (StaticAccelerator, PacketAccelerator),
-        (MovingAccelerator, MovingPackets),
-        (SweptMovers, MovingPackets),
-        (HierarchyAccelerator, HierarchyAccelerator),
-    ):
-        accelerator: Any = made(kind)
-        packed: Any = in_packets(accelerator)
-        assert type(packed) is other
-        assert (packed is accelerator) == (kind is HierarchyAccelerator)
-        # Nothing has happened to who is active for single rays.
-        assert type(accelerator) is kind
-        if kind is MovingAccelerator:
-            assert type(accelerator.static) is StaticAccelerator
-            assert type(packed.static) is PacketAccelerator
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -7,10 +7,9 @@ import pytest
 
 from course import shapes
 from course.building.objects import CONVEX
-from course.compiled import library
 from course.compiled.convex import ConvexObjects, convex_objects
-from course.core.accelerator import NO_HIT, Intersections, QueryStats, StaticAccelerator
-from course.core.hits import Hits, Surface
+from course.compiled.scene_tables import scene_tables
+from course.core.accelerator import StaticAccelerator
 from course.core.types import Functions
 from course.core.vectors import cross, dot
 from course.extras.surface import FullPart, FullSurface, build_surface
@@ -83,13 +82,6 @@ def apart() -> FullSurface:
     )
 
 
-def in_loops(surface: Surface) -> Any:
-    """The same triangles, for compiled loops."""
-    from course.compiled.stages import compiled_surface
-
-    return compiled_surface(surface)
-
-
 def objects(surface: FullSurface) -> ConvexObjects | None:
     """What compiled loops would look at, whether there are any or not."""
     asked = surface.accelerator
@@ -140,94 +132,6 @@ def test_where_things_move_nothing_is_left_out() -> None:
         to_object_space=lambda origins, velocity, time: origins - velocity[:, None] * time,
     )
     parts = [FullPart(BALL, 0, convex=True), FullPart(at(BALL, 0.6, 0, 0), 0, (0.1, 0.0, 0.0))]
-    still, moving = (in_loops(build_surface(some, functions)) for some in (parts[:1], parts))
-    assert still.accelerator.convex is not None
-    assert moving.accelerator.static.convex is None
-    assert moving.accelerator.movers[0].accelerator.convex is None
-    assert moving.excluded_objects(*left_behind(moving, 6)) is None
-
-
-def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
-    """Hits all over the surface from both sides, and rays that leave them upwards, some of them at grazing angles."""
-    n = 60_000
-    rng = np.random.default_rng(seed)
-    triangle = rng.integers(len(surface.triangles.material), size=n).astype(np.int32)
-    _, u, v = rng.dirichlet((1, 1, 1), n).T.astype(np.float32)
-    direction = normalised(rng.normal(size=(3, n))).astype(np.float32)
-    hits = surface.hits(Intersections(triangle, u, v, u), direction)
-    way = rng.normal(size=(3, n))
-    way *= np.where(dot(way, hits.ng) > 0, 1, -1)
-    # Every third ray leaves at 1 / 1000 or less: nothing else would find itself so often.
-    steep = np.where(np.arange(n) % 3 == 0, 1e-3 * rng.random(n), 1)
-    up = dot(way, hits.ng)
-    way = normalised(way - up * (1 - steep) * hits.ng).astype(np.float32)
-    return hits, np.arange(n), way
-
-
-@needs_numba
-def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
-    surface = in_loops(apart())
-    hits, which, way = left_behind(surface, 1)
-    left = surface.excluded_objects(hits, which, way)
-    assert left is not None
-    convex = surface.accelerator.convex
-    assert convex is not None
-    asked = convex.remaining(hits.near_origin, way, np.full(1, NO_HIT, np.float32), left).tolist()
-    assert len(asked) < 0.9 * len(which)
-    stats = QueryStats()
-    some = surface.accelerator.intersect(hits.near_origin, way, stats, excluded=left)
-    every = surface.accelerator.intersect(hits.near_origin, way, stats)
-    assert 0.1 < (every.triangle < 0).mean() < 0.9
-    for name in ("triangle", "u", "v", "t"):
-        assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
-    # Those that were not asked are many of those that hit nothing.
-    assert len(which) - len(asked) > 0.25 * (every.triangle < 0).sum()
-
-
-@needs_numba
-def test_limits_hold_for_rays_that_are_not_asked() -> None:
-    surface = in_loops(apart())
-    hits, which, way = left_behind(surface, 2)
-    limit = np.random.default_rng(0).random(len(which)).astype(np.float32)
-    left = surface.excluded_objects(hits, which, way)
-    stats = QueryStats()
-    some = surface.accelerator.intersect(hits.near_origin, way, stats, limit=limit, excluded=left)
-    every = surface.accelerator.intersect(hits.near_origin, way, stats, limit=limit)
-    for name in ("triangle", "u", "v", "t"):
-        assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
-
-
-@needs_numba
-def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
-    surface = in_loops(apart())
-    hits, which, way = left_behind(surface, 3)
-    # Half of the rays go through the surface instead.
-    way = np.where(which % 2 == 0, way, -way)
-    some = which[::3]
-    left = surface.excluded_objects(hits, some, np.ascontiguousarray(way[:, some]))
-    convex = surface.accelerator.convex
-    assert left is not None
-    assert convex is not None
-    number = np.searchsorted(convex.first, hits.triangle, side="right") - 1
-    outwards = dot(way, hits.ng) * hits.side > 0
-    expected = np.where(outwards & convex.worth[number], number, -1)[some]
-    assert (left == expected).all()
-    assert set(left.tolist()) == {-1, 1, 3}
-    assert (left >= 0).mean() > 0.1
-
-
-@needs_numba
-def test_without_convex_objects_nobody_asks_what_a_ray_leaves() -> None:
-    surface = in_loops(scene((BALL, False), (KNOT, False)))
-    hits, which, way = left_behind(surface, 4)
-    assert surface.excluded_objects(hits, which, way) is None
-
-
-def test_without_compiled_loops_nobody_asks_either() -> None:
-    surface = apart()
-    hits, which, way = left_behind(surface, 5)
-    assert surface.excluded_objects(hits, which, way) is None
-    # Nor once they have been used for the same triangles.
-    if library.available():
-        assert in_loops(surface).excluded_objects(hits, which, way) is not None
-    assert surface.excluded_objects(hits, which, way) is None
+    still, moving = (build_surface(some, functions) for some in (parts[:1], parts))
+    assert scene_tables(still.accelerator, still.triangles.parts).convex is not None
+    assert scene_tables(moving.accelerator, moving.triangles.parts).convex is None

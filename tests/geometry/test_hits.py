@@ -294,14 +294,14 @@ def test_a_coarse_smooth_ball_is_lit_like_a_round_one(
 def test_without_the_bulge_a_coarse_ball_has_teeth(
     make_scene: MakeScene, pixel_rays: PixelRays, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from course import render_scene
     from course.core import direct
+    from course.rendering import which_loops
 
     def flat(_triangles: Triangles, _hits: Hits, which: NDArray[np.intp]) -> NDArray[np.float32]:
         return np.zeros(len(which), np.float32)
 
     monkeypatch.setattr(direct, "bulge", flat)
-    monkeypatch.setattr(render_scene, "packets_available", lambda: False)
+    monkeypatch.setattr(which_loops, "available", lambda: False)
     light = {"type": "directional", "direction": [-1, -0.2, -0.1], "irradiance": np.pi}
     scene, found = lit_ball(make_scene, 16, light)
     normal, to_viewer = round_ball(scene, pixel_rays)

@@ -10,7 +10,6 @@ from course.core.hits import Hits
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
 from course.shapes.mesh import Mesh
-from tests.forms import needs_numba
 
 Array = NDArray[np.float64]
 
@@ -26,13 +25,9 @@ STRETCHES = {
 }
 
 
-def hits_of(mesh: Mesh, compiled: bool = False) -> tuple[FullSurface, Hits]:
+def hits_of(mesh: Mesh) -> tuple[FullSurface, Hits]:
     """Hits all over a mesh, their normals as they are interpolated, wherever the viewer is."""
     surface = build_surface([FullPart(mesh, 0)], turned=np.zeros(1, np.bool_))
-    if compiled:
-        from course.compiled.stages import compiled_surface
-
-        surface = compiled_surface(surface)
     rng = np.random.default_rng(3)
     n = 5000
     triangle = rng.integers(len(surface.triangles.material), size=n).astype(np.int32)
@@ -71,16 +66,6 @@ def test_a_stretched_ball_is_shaded_as_an_ellipsoid(name: str) -> None:
 def test_shading_normals_of_stretched_meshes_are_unit(name: str) -> None:
     _, hits = hits_of(stretched_ball(name)[1])
     assert np.abs(np.linalg.norm(hits.ns.astype(float), axis=0) - 1).max() < 1e-6
-
-
-@needs_numba
-@pytest.mark.parametrize("name", STRETCHES)
-def test_both_kinds_of_loops_give_the_same_bits(name: str) -> None:
-    image = stretched_ball(name)[1]
-    (_, passes), (surface, loop) = hits_of(image), hits_of(image, compiled=True)
-    assert type(surface) is not FullSurface
-    assert passes.ns.tobytes() == loop.ns.tobytes()
-    assert passes.p.tobytes() == loop.p.tobytes()
 
 
 def test_lengths_of_normals_are_the_same_for_the_round_surface_above_the_facets() -> None:

@@ -21,7 +21,7 @@ needs_course = pytest.mark.skipif(not PAGE.is_file(), reason="a student's copy h
 def shown() -> dict[str, str]:
     """Path -> the code that follows it on the page."""
     blocks = re.findall(
-        r"^`([\w/]+\.py)`[^\n]*:\n\n```python\n(.*?)^```$", PAGE.read_text(), re.M | re.S
+        r"^`([\w/]+\.(?:py|yaml))`[^\n]*:\n\n```\w+\n(.*?)^```$", PAGE.read_text(), re.M | re.S
     )
     return dict(blocks)
 

@@ -14,7 +14,6 @@ from typing import Any
 import pytest
 
 from course import Scene, load_scene, render
-from course import render_scene as rendering
 from course.casters.choice import chosen
 from course.compiled import library
 from course.core.accelerator import StaticAccelerator
@@ -27,9 +26,10 @@ from course.rendering.threads import Pool
 if not library.available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
+from course import render_scene
 from course.adaptive import film_kernels
 from course.adaptive.compiled_film import CompiledFilm
-from course.rendering import background_compile
+from course.rendering import background_compile, which_loops
 
 EveryStage = Callable[..., Scene]
 
@@ -53,7 +53,7 @@ def test_a_picture_by_both_tracers_in_turn_has_the_same_bits(
         def tracer(self, tracer: Tracer) -> None:
             self._both = tracer, bind(scene, tracer.settings, compiled=True)
 
-    monkeypatch.setattr(rendering, "Pool", Alternating)
+    monkeypatch.setattr(render_scene, "Pool", Alternating)
     mixed = render(scene, spp=64, threads=2, compiled=False)
     assert set(taken) == {0, 1}
     assert mixed.linear.tobytes() == expected.linear.tobytes()
@@ -90,8 +90,8 @@ def test_only_a_render_that_waits_for_loops_tells_of_them(
     if folder == "own":
         folder = str(tmp_path)
         shutil.copy(PROJECT / "solutions" / "supersampling.py", tmp_path)
-        shutil.copy(PROJECT / "solutions" / "soft_shadows.py", tmp_path)
-    monkeypatch.delenv(rendering.NO_COMPILER, raising=False)
+        shutil.copy(PROJECT / "solutions" / "thin_lens.py", tmp_path)
+    monkeypatch.delenv(which_loops.NO_COMPILER, raising=False)
     told: list[int] = []
 
     @contextmanager
@@ -101,7 +101,7 @@ def test_only_a_render_that_waits_for_loops_tells_of_them(
 
     monkeypatch.setattr(background_compile, "compiling_told", telling)
     monkeypatch.setattr(background_compile, "read", lambda make, _effects: make())
-    scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", effects=folder)
+    scene = load_scene(PROJECT / "scenes" / "thin_lens.yaml", effects=folder)
     render(scene, spp=1, size=(12, 8), compiled=asked)
     assert bool(told) == (folder != "solutions" and asked is None)
 
@@ -226,7 +226,7 @@ def test_where_all_loops_are_on_disk_nothing_else_is_made_ready(
     """No hierarchy for single rays, no pass by NumPy and no process that compiles; the same bits."""
     scene = every_stage(film={"width": 60, "height": 44}, objects=BALL)
     expected = render(scene, spp=16, error=error, compiled=True)
-    monkeypatch.delenv(rendering.NO_COMPILER, raising=False)
+    monkeypatch.delenv(which_loops.NO_COMPILER, raising=False)
     for name in ("_started", "BackgroundCompiler"):
         monkeypatch.setattr(background_compile, name, None)
     scene = every_stage(film={"width": 60, "height": 44}, objects=BALL)

@@ -5,8 +5,8 @@ import sys
 import pytest
 
 from course import render
-from course import render_scene as rendering
 from course.errors import CourseError
+from course.rendering import which_loops
 from tests.forms import needs_numba
 from tests.rendering.conftest import EveryStage
 
@@ -23,7 +23,7 @@ def test_the_picture_is_the_same_bit_for_bit(every_stage: EveryStage, threads: i
 def test_without_numba_everything_works_and_asking_for_it_is_an_error(
     every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(rendering, "packets_available", lambda: False)
+    monkeypatch.setattr(which_loops, "available", lambda: False)
     scene = every_stage(film={"width": 8, "height": 6})
     render(scene, spp=1)
     with pytest.raises(CourseError, match=r"pip install \.\[fast\]"):
@@ -36,11 +36,11 @@ def test_small_renders_do_not_wait_for_numba(
 ) -> None:
     scene = every_stage(film={"width": 8, "height": 6})
     monkeypatch.delitem(sys.modules, "numba", raising=False)
-    monkeypatch.delenv(rendering.NO_COMPILER)
+    monkeypatch.delenv(which_loops.NO_COMPILER)
     settings = scene.settings
-    assert not rendering._use_compiled(settings, None)
-    assert rendering._use_compiled(settings, True)
-    monkeypatch.setattr(rendering, "WORTH_COMPILED", 1)
-    assert rendering._use_compiled(settings, None)
-    monkeypatch.setenv(rendering.NO_COMPILER, "1")
-    assert not rendering._use_compiled(settings, None)
+    assert not which_loops.wants_compiled(settings, None)
+    assert which_loops.wants_compiled(settings, True)
+    monkeypatch.setattr(which_loops, "WORTH_COMPILED", 1)
+    assert which_loops.wants_compiled(settings, None)
+    monkeypatch.setenv(which_loops.NO_COMPILER, "1")
+    assert not which_loops.wants_compiled(settings, None)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course import render_scene as rendering
 from course.core.tracer import Tracer
 from course.extras.samplers import FUNCTIONS
+from course.rendering import which_loops
 from course.rendering.binding import bind
 from tests.conftest import MakeScene
 from tests.rendering.clock import Clock
@@ -80,7 +80,7 @@ def test_building_the_hierarchy_counts(scene: Scene, monkeypatch: pytest.MonkeyP
             clock.now += building
             return bind(*arguments)
 
-        monkeypatch.setattr(rendering, "bind", build)
+        monkeypatch.setattr(which_loops, "bind", build)
         picture = render(scene, time_limit=limit, threads=1, compiled=False)
         samples.append(picture.receipt.samples)
     assert samples[0] == samples[1], "as much as without building in what it leaves"

@@ -15,7 +15,7 @@ from course.effects import PROJECT, Effects
 from course.errors import CourseError
 from course.formats.yaml.loading import load_description
 from course.modules import COURSE
-from course.render_scene import NO_COMPILER
+from course.rendering.which_loops import NO_COMPILER
 from course.studio.differing import Shot, coloured, deviations, share_differing
 from course.studio.engine import EngineEffects, engines_picture
 from course.studio.keys import ABOUT, sliders

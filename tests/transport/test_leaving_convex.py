@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.compiled import accelerator, convex, library
-from course.core import integrator
+from course.compiled import library, scene_tables
 from tests.conftest import MakeScene
 
 if not library.available():
@@ -46,35 +45,16 @@ def balls(make_scene: MakeScene, **parts: Any) -> Scene:
     [{}, {"rough": True}, {"integrator": {"type": "path", "max_depth": 6}}],
     ids=["mirrors", "gloss", "paths"],
 )
-# Batches that are cut in two, as glass makes them grow: what is known of each ray goes with it.
-@pytest.mark.parametrize("largest", [integrator.LARGEST_BATCH, 500])
 def test_pictures_keep_their_bits(
-    make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch, parts: dict[str, Any], largest: int
+    make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch, parts: dict[str, Any]
 ) -> None:
-    # The fused loop leaves them out, too (tests/rendering/test_fused.py).
-    monkeypatch.setattr("course.compiled.engine.fits", lambda _tracer: False)
-    monkeypatch.setattr(integrator, "LARGEST_BATCH", largest)
     scene = balls(make_scene, **parts)
     surface = scene.compiled.world.surface
-    packed = accelerator.in_packets(surface.accelerator, surface.triangles.parts)
-    assert isinstance(packed, accelerator.PacketAccelerator)
-    assert packed.convex is not None
-    assert packed.convex.worth.tolist() == [True, True, True, False]
-    asked, whole = 0, 0
-    remaining = convex.ConvexObjects.remaining
-
-    def counted(self: Any, origin: Any, direction: Any, limit: Any, left: Any) -> Any:
-        nonlocal asked, whole
-        which = remaining(self, origin, direction, limit, left)
-        asked, whole = asked + len(which), whole + len(left)
-        return which
-
-    monkeypatch.setattr(convex.ConvexObjects, "remaining", counted)
+    convex = scene_tables.scene_tables(surface.accelerator, surface.triangles.parts).convex
+    assert convex is not None
+    assert convex.worth.tolist() == [True, True, True, False]
     some = render(scene, compiled=True, threads=1).linear
-    assert 0 < asked < 0.8 * whole
-    asked = 0
-    monkeypatch.setattr(accelerator, "convex_objects", lambda *_: None)
+    monkeypatch.setattr(scene_tables, "convex_objects", lambda *_: None)
     everything = render(balls(make_scene, **parts), compiled=True, threads=1).linear
-    assert asked == 0
     assert np.array_equal(some, everything)
     assert np.array_equal(some, render(scene, compiled=False, threads=1).linear)

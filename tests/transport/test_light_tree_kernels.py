@@ -99,12 +99,12 @@ def test_renders_of_a_scene_share_what_is_known_of_its_lights() -> None:
 
 
 def test_pictures_keep_their_bits(make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Beside the other compiled stages with the walk in NumPy."""
+    """Beside the same passes with the walk in NumPy."""
     for lights in (POINTS, POINTS + WITH_A_SIZE + SUNS):
         scene = seen(make_scene, lights, "tree")
         picture = render(scene, spp=16, compiled=True).linear
         with monkeypatch.context() as patch:
-            patch.setattr("course.compiled.stages.compiled_choice", lambda choice: choice)
+            patch.setattr("course.compiled.engine.compiled_choice", lambda choice: choice)
             known = render(scene, spp=16, compiled=True).linear
         assert known.any()
         assert picture.tobytes() == known.tobytes()

@@ -29,9 +29,9 @@ def submission(function: str, name: str) -> Known:
     for each in _all_of(module):
         if not each.right and each.name == name:
             if each.function != of:
-                raise CourseError(f"solutions/wrong/{module}/{name}.py is of {each.function}")
+                raise CourseError(f"solutions/wrong: {module}'s {name} is of {each.function}")
             return each
-    raise CourseError(f"there is no solutions/wrong/{module}/{name}.py")
+    raise CourseError(f"solutions/wrong: {module} has no {name}")
 
 
 @lru_cache

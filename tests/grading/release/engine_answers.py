@@ -164,7 +164,6 @@ RETYPED = {
     "glossy.sample_phong_lobe": ("_jitter", "course/compiled/bounce_kernels.py"),
     "cube_map.lookup": ("look_up", "course/compiled/cube_kernels.py"),
     "cube_map.lookup_seamless": ("across", "course/compiled/cube_kernels.py"),
-    "multiple_importance.cone_density": ("_cone_density", "course/compiled/lobe_kernels.py"),
     "many_lights.importance": ("_importance", "course/compiled/light_tree_kernels.py"),
     "many_lights.tree_choice": ("walk", "course/compiled/light_tree_kernels.py"),
     "many_lights.tree_probability": ("walk", "course/compiled/light_tree_kernels.py"),
