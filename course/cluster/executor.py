@@ -94,7 +94,8 @@ class Cluster(ThreadedExecutor):
         """Leave the cluster, and nothing on it."""
         self._connection.close()
 
-    def _serve(self, run: Execution) -> None:
+    def serve(self, run: Execution) -> None:
+        """See ``ThreadedExecutor``."""
         pending: dict[str, tuple[Any, list[Work]]] = {}
         ended: SimpleQueue[Any] = SimpleQueue()
         more = True

@@ -107,8 +107,9 @@ class UniformSchedule(Schedule):
 
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``."""
-        return run(list(self._passes(executor)))
+        return run(list(self.work(executor)))
 
-    def _passes(self, executor: Executor) -> Iterator[Work]:
+    def work(self, executor: Executor) -> Iterator[Work]:
+        """The pieces, pass by pass; in other sizes, or in parts, by other schedules."""
         batches = executor.batches(self.tracer.batches)
         return passes(self.tracer.settings, self.tracer.sampler, self.done, batches)

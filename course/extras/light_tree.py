@@ -6,7 +6,7 @@ tree, and the tree's total power beside theirs, when ``power_choice`` chooses am
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,10 @@ from course.extras.visible_sphere import VisibleSphereLight
 
 Tree = tuple[Floats32, Floats32, Floats32, Floats32, Floats32, Indices]
 """As ``many_lights.light_tree`` returns it."""
+
+Walk = Callable[[Floats32, Floats32, Floats32, Indices | None], tuple[Indices, Floats32]]
+"""Takes points (3, n), normals (3, n), u (n,) and which hits these are (None: all): lamps (n,) of the tree, and their
+probability (n,) float32."""
 
 Bounds = tuple[Floats32, Floats32, Floats32, float]
 """Corners of a lamp's box (3,), and axis (3,) and angle of the cone of its normals."""
@@ -43,6 +47,7 @@ class TreeChoice(LightChoice):
     tree : over the lamps (T,) of ``inside``; None if there are none
     inside, outside : numbers of the lights in the tree, (T,), and of the others, (S,)
     powers : (S,) of the others, or (S + 1,) with that of the tree at the end, float32, the largest is 1
+    walk : walks down the tree: the course's function, or a compiled form of it; None where there is none
     """
 
     many_lights: Functions
@@ -50,20 +55,21 @@ class TreeChoice(LightChoice):
     inside: Indices
     outside: Indices
     powers: Floats32
+    walk: Walk | None = None
 
     def choose(self, hits: Hits, u: Floats32) -> tuple[Indices, Floats32]:
         """See ``LightChoice``."""
         if self.tree is None:
             number, probability = self._by_power(u)
         elif not len(self.outside):
-            number, probability = self._walk(hits.near_origin, hits.ns, u, None)
+            number, probability = self._walked(hits.near_origin, hits.ns, u, None)
         else:
             number, probability = self._by_power(u)
             walks = np.flatnonzero(number < 0)
             # The last part of [0, 1) is the tree's: what is left of the number decides about the walk.
             share = self.powers[-1] / self.powers.sum()
             left = np.clip((u.take(walks) - (1 - share)) / share, 0, 1 - np.float32(2.0**-24))
-            found = self._walk(
+            found = self._walked(
                 hits.near_origin.take(walks, axis=1), hits.ns.take(walks, axis=1), left, walks
             )
             number[walks] = found[0]
@@ -78,17 +84,29 @@ class TreeChoice(LightChoice):
         lights = self.outside if self.tree is None else np.append(self.outside, -1)
         return lights.take(number, mode="clip"), np.array(probability, np.float32)
 
-    def _walk(
-        self, p: Floats32, n: Floats32, u: Floats32, _which: Indices | None
+    def _walked(
+        self, p: Floats32, n: Floats32, u: Floats32, which: Indices | None
     ) -> tuple[Indices, Floats32]:
-        """Numbers (n,) of lights in the tree, and their probability, for the hits ``_which``, None for all."""
-        number, probability = np.empty(len(u), np.intp), np.empty(len(u), np.float32)
+        """Numbers (n,) of lights in the tree, and their probability, for the hits ``which``, None for all."""
+        assert self.walk is not None
+        lamp, probability = self.walk(p, n, u, which)
+        return self.inside.take(lamp, mode="clip"), probability
+
+
+def walk_of(tree: Tree, many_lights: Functions) -> Walk:
+    """The walk by ``tree_choice``, which may be a student's."""
+
+    def walk(
+        p: Floats32, n: Floats32, u: Floats32, _which: Indices | None
+    ) -> tuple[Indices, Floats32]:
+        lamp, probability = np.empty(len(u), np.intp), np.empty(len(u), np.float32)
         for first in range(0, len(u), TOGETHER):
             some = slice(first, first + TOGETHER)
             where = (np.ascontiguousarray(vectors[:, some]) for vectors in (p, n))
-            lamp, probability[some] = self.many_lights.tree_choice(self.tree, *where, u[some])
-            number[some] = self.inside.take(lamp, mode="clip")
-        return number, probability
+            lamp[some], probability[some] = many_lights.tree_choice(tree, *where, u[some])
+        return lamp, probability
+
+    return walk
 
 
 def functions_for(lights: Sequence[Light]) -> tuple[str, ...]:
@@ -126,6 +144,7 @@ def tree_choice(lights: tuple[Light, ...], many_lights: Functions) -> TreeChoice
         inside=inside,
         outside=outside,
         powers=(powers / powers.max()).astype(np.float32),
+        walk=None if tree is None else walk_of(tree, many_lights),
     )
 
 

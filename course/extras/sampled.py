@@ -31,7 +31,8 @@ class SampledSphereLight(SphereLight):
 
     sampling: Functions = field(default_factory=Functions)
 
-    def _on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
+    def on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
+        """See ``SphereLight``."""
         match self.samples:
             case "sphere by polar":
                 unit = self.sampling.sphere_by_polar(u)

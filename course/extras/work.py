@@ -55,7 +55,8 @@ def divided_passes(
 class DividedSchedule(UniformSchedule):
     """Uniform passes in one round, with divided tiles."""
 
-    def _passes(self, executor: Executor) -> Iterator[Work]:
+    def work(self, executor: Executor) -> Iterator[Work]:
+        """See ``UniformSchedule``."""
         tracer = self.tracer
         batches = executor.batches(tracer.batches)
         return divided_passes(tracer.settings, tracer.sampler, self.done, batches, executor.threads)

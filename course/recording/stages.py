@@ -137,7 +137,7 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
             # Each light by itself, so that its rays have its name.
             seen["choice"] = replace(choice, together=False)
             if isinstance(choice, TreeChoice):
-                seen["choice"] = _as(RecordedTree, seen["choice"], recorder)
+                seen["choice"] = _recorded_walk(seen["choice"], recorder)
         changed["direct"] = _as(RecordedDirect, integrator.direct, recorder, **seen)
     if integrator.scatter is not None:
         changed["scatter"] = _as(RecordedScatter, integrator.scatter, recorder)
@@ -348,17 +348,18 @@ class RecordedDirect(DirectLight):
         )
 
 
-class RecordedTree(TreeChoice):
-    """Tells which hits walk down the light tree."""
+def _recorded_walk(choice: TreeChoice, recorder: Recorder) -> TreeChoice:
+    """The choice, whose walk tells which hits walk down the tree."""
+    walk = choice.walk
 
-    recorder: Recorder
-
-    def _walk(
-        self, p: Floats32, n: Floats32, u: Floats32, which: Indices | None
+    def told(
+        p: Floats32, n: Floats32, u: Floats32, which: Indices | None
     ) -> tuple[Indices, Floats32]:
-        recorder, ids = self.recorder, self.recorder.ids
-        recorder.knows(u, ids if which is None else ids.take(which))
-        return super()._walk(p, n, u, which)
+        assert walk is not None
+        recorder.knows(u, recorder.ids if which is None else recorder.ids.take(which))
+        return walk(p, n, u, which)
+
+    return replace(choice, walk=None if walk is None else told)
 
 
 class RecordedSky(Sky):

@@ -42,8 +42,9 @@ class DenoisingSchedule(DividedSchedule):
         """What the filter has changed, by its own estimate."""
         return {"denoising": self.told or None}
 
-    def _passes(self, executor: Executor) -> Iterator[Work]:
-        return (replace(work, parts=work.samples) for work in super()._passes(executor))
+    def work(self, executor: Executor) -> Iterator[Work]:
+        """See ``UniformSchedule``."""
+        return (replace(work, parts=work.samples) for work in super().work(executor))
 
 
 def make(job: Job, tracer: Tracer, bound: Bound) -> tuple[MomentsFilm, DenoisingSchedule]:

@@ -83,7 +83,7 @@ class ThreadedExecutor(Executor):
         self._time_limit = inf
 
     @abstractmethod
-    def _serve(self, run: Execution) -> None:
+    def serve(self, run: Execution) -> None:
         """Do work and add it to the film, until none is left or the deadline has passed; runs in its own thread."""
 
     def run(
@@ -119,7 +119,7 @@ class ThreadedExecutor(Executor):
 
     def _worker(self, run: Execution) -> None:
         try:
-            self._serve(run)
+            self.serve(run)
         except CancelledError:
             pass
         except BaseException as error:  # noqa: BLE001 - handed to the thread that waits
@@ -175,7 +175,8 @@ class Pool(ThreadedExecutor):
         """Number of threads that render."""
         return self._servers
 
-    def _serve(self, run: Execution) -> None:
+    def serve(self, run: Execution) -> None:
+        """See ``ThreadedExecutor``."""
         counters = Counters()
         try:
             while (work := self._take(run)) is not None:

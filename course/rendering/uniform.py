@@ -32,7 +32,7 @@ class TimedSchedule(DividedSchedule):
             seconds = before - executor.seconds_left
             if seconds * size / quick < 0.5 * executor.seconds_left:
                 break
-        return run(self._passes(executor))
+        return run(self.work(executor))
 
 
 def make(

@@ -11,14 +11,14 @@ from course import render
 from course.compiled import library
 from course.core.types import Functions
 from course.effects import PROJECT, Effects
-from course.extras.light_tree import Tree, TreeChoice
+from course.extras.light_tree import Tree, TreeChoice, walk_of
 from tests.conftest import MakeScene
 from tests.transport.test_light_choice import POINTS, SUNS, WITH_A_SIZE, seen
 
 if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
-from course.compiled.light_tree import CompiledTreeChoice, compiled_choice
+from course.compiled.light_tree import compiled_choice
 
 SOLUTIONS = Effects(PROJECT / "solutions")
 MANY_LIGHTS = Functions(
@@ -56,6 +56,7 @@ def choice_of(tree: Tree, functions: Functions = MANY_LIGHTS) -> TreeChoice:
         inside=inside,
         outside=nothing,
         powers=np.ones(1, np.float32),
+        walk=walk_of(tree, functions),
     )
 
 
@@ -64,7 +65,8 @@ def choice_of(tree: Tree, functions: Functions = MANY_LIGHTS) -> TreeChoice:
 def test_the_same_lamps(lamps: int, kind: str) -> None:
     choice = choice_of(tree_of(lamps, kind))
     loop = compiled_choice(choice)
-    assert isinstance(loop, CompiledTreeChoice)
+    assert isinstance(loop, TreeChoice)
+    assert loop is not choice
     rng, n = np.random.default_rng(1), 5003
     p, normal = rng.uniform(-1.5, 1.5, (3, n)), rng.normal(size=(3, n))
     normal /= np.linalg.norm(normal, axis=0)

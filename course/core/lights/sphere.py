@@ -49,9 +49,9 @@ class SphereLight(Light):
         assert u is not None
         if self.emitter:
             return self._sample_emitter(points, u)
-        return towards(self._on_light(self.center, points, u), points)
+        return towards(self.on_light(self.center, points, u), points)
 
-    def _on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
+    def on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
         """Points (3, n) on the light, moved to the given centre."""
         on_light: Floats32
         match self.samples:
@@ -68,7 +68,7 @@ class SphereLight(Light):
         # Drawn on a sphere around the origin, a point is r times its normal. Around a distant centre, rounding could
         # move it by more than the radius. With x the point, c the centre, d the distance and r the radius,
         # cos' = -(x - c) . to_light / (r d).
-        from_center = self._on_light(np.zeros(3, np.float32), points, u)
+        from_center = self.on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points
         inverse_length, factor = inverse_square(to_light)
