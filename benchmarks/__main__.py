@@ -21,6 +21,7 @@ from benchmarks.convergence import measure_convergence
 from benchmarks.denoising import measure_denoising
 from benchmarks.engine import measure_degenerate, measure_dragons, measure_effects, measure_engine
 from benchmarks.environment_light import measure_environment_light
+from benchmarks.false_alarms import measure_false_alarms
 from benchmarks.figures import Figure, table, write_ratios
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling
@@ -66,6 +67,7 @@ MEASURES = {
     "denoising": measure_denoising,
     "quasi_monte_carlo": measure_quasi_monte_carlo,
     "blue_noise": measure_blue_noise,
+    "false_alarms": measure_false_alarms,
 }
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -15,11 +15,21 @@ from course.cli.tables import Section, print_sections
 from course.errors import CourseError
 
 if TYPE_CHECKING:
-    from course.comparing.comparison import Comparison
+    from course.comparing.comparison import Comparison, Found
+    from course.comparing.seen import Seen
 
 DIFFERENT = 1
 TROUBLE = 2
 """Exit codes as those of `diff` and `cmp`, which scripts know: 0 the same, 1 different, 2 trouble."""
+
+TESTS = {
+    "brightness": ("red", "green", "blue"),
+    "movement": ("moved across", "moved down"),
+    "sharpness": ("blurred",),
+    "shapes": ("alike across", "alike down", "one sign"),
+    "spot": ("spot",),
+}
+"""Names of tests, and the kinds of `course.comparing.comparison.Found` that each looks for."""
 
 FEW = 0.5
 """Share of pixels that differ, below which noise is not what makes the difference: it would make nearly all differ."""
@@ -31,7 +41,7 @@ FEW = 0.5
 @click.option(
     "--significance",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),
-    default=1e-3,
+    default=1e-4,
     show_default=True,
     metavar="P",
     help="Call them different where noise alone shows as much in less than this share of pairs.",
@@ -39,7 +49,8 @@ FEW = 0.5
 @click.option(
     "--difference",
     type=options.PATH,
-    help="Write A - B in colours, as .png: red where A is brighter, blue where B is.",
+    help="Write A - B in colours, as .png: red where A is brighter, blue where B is; with frames\n"
+    "around what was seen.",
 )
 @click.option(
     "--json", "json_path", callback=options.json_path, help="Write what was found as JSON."
@@ -52,6 +63,8 @@ def compare(
     Takes two renders of a scene by different seeds, numbers of samples or programs: EXR, HDR, PNG
     or JPEG, in any mixture. How noisy they are needn't be known. If one has 8 bits, both are
     compared as 8 bits show them, and pixels that are cut off at white are left out.
+
+    Says what differs: brightness, everywhere or in a place, colours, a movement, a blur, or a spot.
 
     Exit codes: 0 no difference shown, 1 different, 2 trouble.
     """
@@ -68,6 +81,7 @@ def _compare(
     a: Path, b: Path, significance: float, difference: Path | None, json_path: Path | None
 ) -> Comparison:
     from course.comparing.comparison import compare as compare_pictures
+    from course.comparing.seen import seen
     from course.formats.pictures.reading import LINEAR, read_picture
 
     for source in (a, b):
@@ -80,26 +94,45 @@ def _compare(
         found = compare_pictures(first, second, coded)
     except CourseError as error:
         raise CourseError(f"{a}, {b}: {error}") from error
+    differences = seen(found, significance)
     if difference is not None:
         from course.comparing.difference import difference_picture
         from course.formats.pictures.files import write_png
 
-        write_png(difference, difference_picture(first, second))
-    different = found.p_value < significance
-    print_sections(f"{a} - {b}", _sections(found, different, significance))
+        write_png(difference, difference_picture(first, second, differences))
+    print_sections(f"{a} - {b}", _sections(found, differences, significance))
     if json_path is not None:
         from course.atomic import write_text
 
-        told = {"a": str(a), "b": str(b), "significance": significance, "different": different}
+        told = {"a": str(a), "b": str(b), "significance": significance}
         write_text(
-            json_path, json.dumps({**told, **dataclasses.asdict(found)}, indent=2, allow_nan=False)
+            json_path, json.dumps({**told, **_told(found, differences)}, indent=2, allow_nan=False)
         )
     return found
 
 
-def _sections(found: Comparison, different: bool, significance: float) -> list[Section]:
-    left, top, width, height = found.block
-    place = f"{width} x {height} pixels from column {left}, row {top}"
+def _told(found: Comparison, differences: list[Seen]) -> dict[str, Any]:
+    """Plain data."""
+    return {
+        "different": bool(differences),
+        "p_value": found.p_value,
+        "seen": [
+            {"text": one.text, "place": None if one.place is None else asdict(one.place)}
+            for one in differences
+        ],
+        "tests": [asdict(one) for one in found.found],
+        "mean_difference": found.mean_difference,
+        "mean": found.mean,
+        "rmse": found.rmse,
+        "differing": found.differing,
+        "largest": found.largest,
+        "clipped": found.clipped,
+        "coded": found.coded,
+    }
+
+
+def _sections(found: Comparison, differences: list[Seen], significance: float) -> list[Section]:
+    different = bool(differences)
     sign = "<" if different else ">="
     verdict = "different" if different else "no difference but noise"
     most, column, row = found.largest
@@ -108,25 +141,19 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
     hint = (
         f"; but only {share} of the pixels differ: look at these with --difference" if few else ""
     )
-    channel = ("red", "green", "blue")[found.channel]
     means = [
         f"{name} {d:+.3g} ({d / m:+.3%})" if m else f"{name} {d:+.3g}"
         for name, d, m in zip("RGB", found.mean_difference, found.mean, strict=True)
     ]
-    seen = [
-        ("blocks", f"{found.blocks} of about {width} x {height} pixels, 3 channels each"),
-        ("left out", f"{found.clipped:.2%} of the pixels: cut off at white, or beside such"),
-        ("values", "as 8 bits show them, decoded" if found.coded else "as the files hold them"),
-    ]
+    verdicts = [("verdict", f"{verdict} (p-value {sign} {significance:g}){hint}")]
+    verdicts += [("seen" if one is differences[0] else "", one.text) for one in differences]
     return [
-        ("", [("verdict", f"{verdict} (p-value {sign} {significance:g}){hint}")]),
+        ("", verdicts),
         (
             "p-value",
             [
                 ("altogether", f"{found.p_value:.2g}"),
-                ("largest block", f"{found.p_block:.2g}"),
-                ("all blocks", f"{found.p_all:.2g}"),
-                ("spot", f"{found.p_spot:.2g}, at column {found.spot[0]}, row {found.spot[1]}"),
+                *((name, _p_value(found.least(*kinds))) for name, kinds in TESTS.items()),
             ],
         ),
         (
@@ -135,8 +162,29 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
                 ("mean", ", ".join(means)),
                 ("RMSE", f"{found.rmse:.4g}"),
                 ("pixels", f"{share} differ, most by {most:+.3g} at column {column}, row {row}"),
-                ("largest block", f"{channel} {found.block_difference:+.3g} in {place}"),
             ],
         ),
-        ("compared", seen),
+        (
+            "compared",
+            [
+                (
+                    "left out",
+                    f"{found.clipped:.2%} of the pixels: cut off at white, or beside such",
+                ),
+                (
+                    "values",
+                    "as 8 bits show them, decoded" if found.coded else "as the files hold them",
+                ),
+            ],
+        ),
     ]
+
+
+def _p_value(least: Found) -> str:
+    place = least.place
+    at = (
+        "in the whole picture"
+        if least.whole
+        else f"in {place.width} x {place.height} pixels at ({place.left}, {place.top})"
+    )
+    return f"{least.p_value:.2g}" + (f", {at}" if least.p_value < 1 else "")

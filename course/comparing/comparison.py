@@ -1,42 +1,53 @@
-"""Are two pictures the same but for noise? A Student test in blocks of pixels, and one of all blocks together.
+"""Are two pictures the same but for noise? Signed sums of their difference in windows of many sizes, and spots.
 
-How noisy a pixel is nobody says, and its neighbour may be a hundred times as noisy. So the picture is divided into
-blocks of 4 x 4 cells, and the difference of the pictures in a block is measured by how much its cells differ from each
-other. One t a block sees what is wrong in a place; all of them together see what is wrong everywhere, a change of
-brightness say, long before one block alone could.
+How noisy a pixel is nobody says, and its neighbour may be a hundred times as noisy. But if both pictures have the same
+mean, noise makes a pixel of the first brighter as often as darker. So what is tested are signs: whether they agree in
+a window more than chance allows (``course.comparing.windows``), be they those of the difference itself, or of its
+product with the picture's slopes, which a movement or a blur turns all one way (``course.comparing.fields``). Windows
+have all sizes from 8 pixels to the whole picture. What is smaller is found by how it stands out
+(``course.comparing.spots``).
 
-    d      signed difference of a cell, a mean over its pixels; one for each channel
-    t      mean of d over the block's cells / its standard error
-    T      sum of t / root of the sum of t^2: self-normalized, so it needs neither the variance of t nor its law
-           (Shao and Wang, "Self-normalized limit theorems: a survey", 2013)
-
-If both pictures have the same noise, d is as often positive as negative, whatever its tails; a t is then too large
-less often than Student's law says (Efron, "Student's t-test under symmetry conditions", 1969).
-
-A place that is smaller than a block's cells, or lies across the borders of some, can't be told from noise so. A third
-test looks for one spot of three pixels or more (``course.comparing.spots``). How many pixels differ at all, and which
-one most, is told beside it.
+p-values are corrected for the numbers of windows, sizes, fields and shapes of spots (Bonferroni).
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from course.comparing.blocks import SMALLEST, differences, divide, together
-from course.comparing.spots import most_different_spot
+from course.comparing.fields import COLOURS, KINDS, fields_of
+from course.comparing.noise import Level, level_of, noise_of
+from course.comparing.one_sign import of_one_sign
+from course.comparing.one_sign import p_value as p_of_signs
+from course.comparing.pair import Pair, pair_of
+from course.comparing.patches import Even, evenest, largest_t
+from course.comparing.spots import SHAPES, Spot, most_different_spot, standing_out, usual
+from course.comparing.windows import Grid, Place, alike, largest_sums
 from course.core.types import Floats32, Floats64, Mask
-from course.errors import CourseError
-from course.formats.pictures.display import linear_to_srgb8, srgb_to_linear
 
-FEWEST = 4
-"""Blocks that a picture needs."""
+SIGNIFICANCE = 1e-4
+"""Share of pairs of equal pictures that may be called different."""
 
-HALF_STEP = 2.0**-10
-"""Distance of two neighbours among OpenEXR's half floats, as a share of their size, at most."""
+SPOT, SIGNS = "spot", "one sign"
+"""Kinds of a difference in a few pixels, and in many cells; the others are ``course.comparing.fields.KINDS``."""
 
-FLOAT_STEP = 2.0**-14
-"""The same for float32, with what a renderer's own sums and constants lose."""
+
+@dataclass(frozen=True)
+class Found:
+    """One kind of difference where it is most significant among places of one size.
+
+    Attributes
+    ----------
+    kind : of ``KINDS``, ``SPOT`` or ``SIGNS``
+    p_value : how often noise alone would show as much, or more, in any place, kind and size
+    t : sum over standard error, with its sign; 0 for the last two
+    whole : whether the place is the whole picture
+    """
+
+    kind: str
+    p_value: float
+    t: float
+    place: Place
+    whole: bool
 
 
 @dataclass(frozen=True)
@@ -45,39 +56,43 @@ class Comparison:
 
     Attributes
     ----------
-    p_value : how often noise alone would show as much, or more; corrected for the number of blocks and channels
-    p_block, p_all : the same of the most significant block alone, and of all large blocks together
-    p_spot : the same of the spot of a few pixels that stands out most
-    spot : its column and row
+    found : every kind in every size, the most significant first
     mean_difference : of a - b, over usable pixels, for red, green and blue [radiance]
     mean : of both pictures there
     rmse : root-mean-square difference, over usable pixels and channels [radiance]
-    block : column and row of the upper left pixel of the most significant block, large or small, its width and height
-    channel : 0, 1 or 2, of that block
-    block_difference : mean of a - b there [radiance]
     differing : share of the usable pixels that are not equal
     largest : the largest difference a - b of one pixel and channel [radiance], and the pixel's column and row
-    blocks : large ones that were compared
-    clipped : share of the pixels that were left out, for they or a neighbour are cut off at white
-    coded : whether the pictures were compared as 8 bits show them
+    pair : the pictures, as they were compared
+    level : of their noise
     """
 
-    p_value: float
-    p_block: float
-    p_all: float
-    p_spot: float
-    spot: tuple[int, int]
+    found: tuple[Found, ...]
     mean_difference: tuple[float, float, float]
     mean: tuple[float, float, float]
     rmse: float
-    block: tuple[int, int, int, int]
-    channel: int
-    block_difference: float
     differing: float
     largest: tuple[float, int, int]
-    blocks: int
-    clipped: float
-    coded: bool
+    pair: Pair
+    level: Level
+
+    @property
+    def p_value(self) -> float:
+        """How often noise alone would show as much, or more."""
+        return self.found[0].p_value
+
+    @property
+    def coded(self) -> bool:
+        """Whether the pictures were compared as 8 bits show them."""
+        return self.pair.coded
+
+    @property
+    def clipped(self) -> float:
+        """Share of the pixels that were left out, for they or a neighbour are cut off at white."""
+        return 1 - float(self.pair.usable.mean())
+
+    def least(self, *kinds: str) -> Found:
+        """The most significant of some kinds."""
+        return next(one for one in self.found if one.kind in kinds)
 
 
 def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False)) -> Comparison:
@@ -91,98 +106,69 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
     coded : whether each comes from a file that is cut off at white. Where one does and has 8 bits, the other is encoded
         and decoded likewise.
     """
-    if a.shape != b.shape:
-        raise CourseError(
-            f"pictures of {a.shape[1]} x {a.shape[0]} and {b.shape[1]} x {b.shape[0]} pixels can't be compared"
-        )
-    eight = any(cut and _has_8_bits(one) for one, cut in ((a, coded[0]), (b, coded[1])))
-    if eight:
-        a, b = _shown(a), _shown(b)
-    usable = np.ones(a.shape[:2], bool)
-    if any(coded):
-        cut: Mask = np.any((a >= 1) | (b >= 1), axis=2)
-        usable = ~_spread(cut)
-        a, b = np.minimum(a, 1), np.minimum(b, 1)
-    steps = _step(a, eight), _step(b, eight)
-    return _test(a.astype(np.float64), b.astype(np.float64), usable, steps)
+    pair = pair_of(a, b, coded)
+    grid = Grid.over(*pair.usable.shape)
+    some = pair.sample()
+    level, normal = level_of(some), usual(some)
+    z = np.zeros((len(SHAPES), *pair.usable.shape))
+    cells: list[Floats64] = []
+    patches: list[list[tuple[float, int, int]]] = []
+    signs: list[Mask] = []
+    for part, own, rows in pair.strips(grid):
+        noise, rounding = noise_of(part, level), pair.rounding(part)
+        fields = fields_of(part, noise, rounding, level.inflation)
+        strip = grid.strip(rows)
+        cells.append(np.stack([field.cells(own, strip) for field in fields]))
+        signs.append(of_one_sign(part.d, rounding, own, strip))
+        upper = rows.start - own.start
+        of_strip = largest_t(part, own, noise, rounding, level.least)
+        patches.append([(t, row + upper, column) for t, row, column in of_strip])
+        z[:, rows] = [one[own] for one in standing_out(part, normal)]
+    summed = np.concatenate(cells, axis=2)
+    summed = np.concatenate((summed, alike(summed[: len(COLOURS)], level.inflation)))
+    # Noise that is spread evenly makes neighbours unlike.
+    positive = [number for number, kind in enumerate(KINDS) if kind.startswith("alike")]
+    sums = list(largest_sums(summed, grid, level.inflation, positive))
+    spots: list[Spot | Even] = [
+        *(most_different_spot(of_shape, shape) for of_shape, shape in zip(z, SHAPES, strict=True)),
+        *evenest(patches, 3 * pair.usable.size, level.inflation),
+    ]
+    height, width = pair.usable.shape
+    whole = Place(0, 0, width, height)
+    # What is rare in few samples is missing in many pixels, all of one sign.
+    p_signs = 1.0 if level.ratio else p_of_signs(np.concatenate(signs), level.inflation)
+    # A third of the false alarms may be due to windows, to spots, and to cells of one sign.
+    found = [
+        Found(SIGNS, min(1.0, 3 * p_signs), 0.0, whole, True),
+        *(
+            Found(
+                KINDS[one.field], min(1.0, 3 * len(sums) * one.p_value), one.t, one.place, one.whole
+            )
+            for one in sums
+        ),
+        *(
+            Found(SPOT, min(1.0, 3 * len(spots) * one.p_value), 0.0, one.place, False)
+            for one in spots
+        ),
+    ]
+    found.sort(key=lambda one: (one.p_value, -abs(one.t)))
+    return _told(tuple(found), pair, level)
 
 
-def _shown(linear: Floats32) -> Floats32:
-    """A picture (H, W, 3) as it comes back from a file of 8 bits."""
-    return srgb_to_linear(linear_to_srgb8(np.moveaxis(linear, -1, 0)) / 255)
-
-
-def _has_8_bits(linear: Floats32) -> bool:
-    return bool((_shown(linear) == linear).all())
-
-
-def _spread(mask: Mask) -> Mask:
-    """Pixels (H, W) that are in a mask, or have a neighbour that is."""
-    padded = np.pad(mask, 1)
-    rows = padded[:-2] | padded[1:-1] | padded[2:]
-    result: Mask = rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:]
-    return result
-
-
-def _step(linear: Floats32, eight: bool) -> float | None:
-    """Distance of neighbouring values as a share of their size; None for the codes of 8 bits."""
-    if eight:
-        return None
-    with np.errstate(all="ignore"):
-        half = bool((linear.astype(np.float16) == linear).all())
-    return HALF_STEP if half else FLOAT_STEP
-
-
-def _test(
-    a: Floats64, b: Floats64, usable: Mask, steps: tuple[float | None, float | None]
-) -> Comparison:
-    height, width = usable.shape
-    if min(height, width) < SMALLEST:
-        raise _too_small(width, height)
-    large, small = (differences(a, b, usable, steps, blocks) for blocks in divide(height, width))
-    kept = int((large.counted[:, 0] > 0).sum())
-    if kept < FEWEST:
-        raise _too_small(width, height, 1 - float(usable.mean()))
-    p_all = together(large)
-    by_block = [one.p_values(near) for one, near in ((large, False), (small, True))]
-    least = [float(p.min()) * np.isfinite(p).sum() for p in by_block]
-    chosen = int(np.argmin(least))
-    tested, p = (large, small)[chosen], by_block[chosen]
-    worst, channel = np.unravel_index(p.argmin(), p.shape)
-    p_block = min(1.0, 2 * min(least))
-    p_spot, *spot = most_different_spot(a, b, usable)
-    difference: Any = (a - b)[usable]
-    both: Any = 0.5 * (a + b)[usable]
+def _told(found: tuple[Found, ...], pair: Pair, level: Level) -> Comparison:
+    """With what else is told of the difference."""
+    a, b = (one[pair.usable] for one in (pair.a, pair.b))
+    d = a - b
+    means, both = (one.mean(axis=0, dtype=np.float64) for one in (d, 0.5 * a + 0.5 * b))
+    worst, channel = np.unravel_index(int(np.abs(d).argmax()), d.shape)
+    rows, columns = np.nonzero(pair.usable)
     return Comparison(
-        p_value=min(1.0, 3 * min(p_block, p_all, p_spot)),
-        p_block=p_block,
-        p_all=p_all,
-        p_spot=p_spot,
-        spot=(spot[0], spot[1]),
-        mean_difference=tuple(difference.mean(axis=0).tolist()),
-        mean=tuple(both.mean(axis=0).tolist()),
-        rmse=float(np.sqrt((difference**2).mean())),
-        block=tested.blocks.place(int(worst)),
-        channel=int(channel),
-        block_difference=float(tested.mean[worst, channel]),
-        differing=float((difference != 0).any(axis=1).mean()),
-        largest=_largest(a - b, usable),
-        blocks=kept,
-        clipped=1 - float(usable.mean()),
-        coded=steps[0] is None,
-    )
-
-
-def _largest(difference: Floats64, usable: Mask) -> tuple[float, int, int]:
-    """The largest of a picture (H, W, 3), with its sign, and its column and row."""
-    size = np.where(usable[..., None], np.abs(difference), 0)
-    row, column, channel = np.unravel_index(int(size.argmax()), size.shape)
-    return float(difference[row, column, channel]), int(column), int(row)
-
-
-def _too_small(width: int, height: int, clipped: float = 0.0) -> CourseError:
-    left = f", {clipped:.0%} of them cut off at white or beside such pixels," if clipped else ""
-    return CourseError(
-        f"pictures of {width} x {height} pixels{left} leave fewer than {FEWEST} blocks of {SMALLEST} x {SMALLEST} to"
-        " compare; render larger ones" + (", or as EXR" if clipped else "")
+        found=found,
+        mean_difference=tuple(means.tolist()),
+        mean=tuple(both.tolist()),
+        rmse=float(np.sqrt(np.square(d, dtype=np.float64).mean())),
+        differing=float((d != 0).any(axis=1).mean()),
+        largest=(float(d[worst, channel]), int(columns[worst]), int(rows[worst])),
+        pair=pair,
+        level=level,
     )

@@ -13,7 +13,7 @@ from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures import rendered as rendered_module
 from course.grading.pictures.catalog import PICTURES
-from course.grading.pictures.judging import BLOCKS, check_bias, ssim
+from course.grading.pictures.judging import BLOCKS, check_bias, check_ssim, ssim
 from course.grading.pictures.rendered import BIAS_REFERENCES, loaded, rendered
 from course.grading.pictures.scenes import moving
 from course.grading.pictures.whole import WHOLE, Together
@@ -136,6 +136,14 @@ def test_ssim_knows_equal_from_noise() -> None:
     picture = rng.random((3, 36, 48)).astype(np.float32)
     assert ssim(picture, picture) == 1
     assert ssim(picture, rng.random((3, 36, 48)).astype(np.float32)) < 0.2
+
+
+def test_a_picture_that_is_moved_is_said_to_be() -> None:
+    y, x = np.mgrid[:36, :48]
+    picture = np.stack([0.3 + 0.2 * np.sin(x / k) * np.cos(y / 5) for k in (3, 4, 5)])
+    with pytest.raises(Failure) as told:
+        check_ssim(np.roll(picture, 2, axis=2), picture, "of/nothing")
+    assert told.value.hint.endswith("A is moved by about 2 pixels to the right.")
 
 
 def test_a_bias_of_one_percent_is_found_under_noise_of_ten() -> None:

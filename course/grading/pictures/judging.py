@@ -12,6 +12,9 @@ from importlib.resources import files
 import numpy as np
 from scipy.special import stdtrit
 
+from course.comparing.comparison import SIGNIFICANCE, compare
+from course.comparing.seen import seen
+from course.errors import CourseError
 from course.formats.pictures.display import linear_to_srgb8
 from course.grading.checks.check import Array, Failure
 
@@ -55,7 +58,20 @@ def check_ssim(yours: Array, expected: Array, check: str) -> None:
             f"SSIM of at least {tolerance:.4f}",
             f"{found:.4f}",
             f"largest difference at pixel ({x}, {y}): {_rgb(yours, y, x)} instead of {_rgb(expected, y, x)}",
+            _described(yours, expected),
         )
+
+
+def _described(yours: Array, expected: Array) -> str:
+    """What differs, in a sentence; empty where that can't be said."""
+    a, b = (np.moveaxis(np.asarray(one, np.float32), 0, -1) for one in (yours, expected))
+    if not (np.isfinite(a).all() and np.isfinite(b).all()):
+        return ""
+    try:
+        found = seen(compare(a, b), SIGNIFICANCE)
+    except CourseError:
+        return ""
+    return f"A is yours, and B the reference's. {found[0].text}." if found else ""
 
 
 def block_means(picture: Array) -> Array:
