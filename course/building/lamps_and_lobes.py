@@ -8,6 +8,7 @@ import numpy as np
 from course.core.gloss import Lobe
 from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sample import Light
+from course.core.lights.sphere import SphereLight
 from course.core.materials import MaterialTable
 from course.core.types import Functions
 from course.effects import Bound
@@ -64,7 +65,7 @@ def compile_combining(
     names = [] if way == "lamp" or not found else ["heuristic_weights"]
     if any(isinstance(light, RectangleLight) for light, _ in found):
         names.append("area_density")
-    if any(isinstance(light, VisibleSphereLight) for light, _ in found):
+    if not all(isinstance(light, RectangleLight) for light, _ in found):
         names.append("cone_density")
     functions = bound.functions("multiple_importance", *names, asked_by=asked_by)
     lamps = tuple(_lamp(light, surface, functions) for light, surface in found)
@@ -113,15 +114,20 @@ def _can_be_met(light: d.Light) -> bool:
 def _has_density(light: Light) -> bool:
     if isinstance(light, RectangleLight):
         return light.normal is not None and light.visible and not light.two_sided
-    return isinstance(light, VisibleSphereLight)
+    return isinstance(light, VisibleSphereLight) or (
+        isinstance(light, SphereLight) and light.emitter
+    )
 
 
 def _lamp(light: Light, surface: int, functions: Functions) -> Lamp:
+    if isinstance(light, SphereLight):
+        # Wherever matt surfaces look for its points, lobes do on the part that is seen, whose points have a density.
+        known = light.name, light.center, light.radius, light.color
+        light = VisibleSphereLight(*known)
     if isinstance(light, VisibleSphereLight):
         area = 4 * np.pi * light.radius**2
         return RoundLamp(light, surface, area, functions, light.center, light.radius)
     assert isinstance(light, RectangleLight)
-    assert light.normal is not None
     sides = light.edge_u.astype(np.float64), light.edge_v.astype(np.float64)
     area = float(np.linalg.norm(np.cross(*sides)))
-    return FlatLamp(light, surface, area, functions, light.normal)
+    return FlatLamp(light, surface, area, functions)

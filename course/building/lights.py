@@ -2,7 +2,7 @@
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,9 +56,11 @@ def compile_lights(
     bound: Bound,
     materials: MaterialTable,
     objects: Lit,
+    lifts: Mapping[int, Floats64],
 ) -> tuple[tuple[Light, ...], dict[str, str]]:
     """Lights that light something, and name -> reason for those that don't.
 
+    ``lifts`` : see ``course.building.coplanar``
     A light that is sampled as a grid becomes a point light for each cell.
     """
     scene = loaded.description
@@ -76,7 +78,8 @@ def compile_lights(
         if reason:
             skipped[name] = reason
             continue
-        compiler = _Compiler(name, ("lights", number), loaded, frame, shutter, bound)
+        known = name, ("lights", number), loaded, frame, shutter, bound
+        compiler = _Compiler(*known, lifts.get(number, np.zeros(3)))
         if isinstance(light, d.ObjectLight):
             lights.append(compiler.of_object(light, objects.triangles, objects.materials[number]))
         else:
@@ -112,6 +115,7 @@ class _Compiler:
     frame: Frame
     shutter: Shutter
     bound: Bound
+    lift: Floats64
 
     def __call__(
         self, light: d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight
@@ -195,7 +199,7 @@ class _Compiler:
         sine = float(np.linalg.norm(normal))
         area = float(np.abs(edge_u).max() * np.abs(edge_v).max()) * sine
         corner = self._position(light.corner, light.motion)
-        facing = None if light.radiance is None else _single(normal / sine)
+        facing = None if light.radiance is None else normal / sine
         power = self._power(light, area)
         velocity = self._velocity(light)
         if light.samples == "point":
@@ -269,7 +273,7 @@ class _Compiler:
         return in_range(power / math.pi, self.loaded, self.path, "the light's power", unit)
 
     def _position(self, x: d.Vector, motion: d.MotionDescription) -> Floats32:
-        position = self.frame.position(np.array(x) + self.shutter.start(motion))
+        position = self.frame.position(np.array(x) + self.shutter.start(motion)) + self.lift
         return in_reach(position, self.loaded, self.path, "the light's distance")
 
     def _velocity(
@@ -294,11 +298,16 @@ SEGMENTS = 128
 
 
 def emitter_parts(
-    loaded: Loaded, frame: Frame, shutter: Shutter, first_material: int
+    loaded: Loaded,
+    frame: Frame,
+    shutter: Shutter,
+    first_material: int,
+    lifts: Mapping[int, Floats64],
 ) -> tuple[list[FullPart], list[Floats64]]:
     """Meshes of the visible lights, and the radiance of the material that each of them gets.
 
-    Materials are numbered from ``first_material``. SceneError where float32 can't carry a corner or the radiance.
+    Materials are numbered from ``first_material``; for ``lifts`` see ``course.building.coplanar``.
+    SceneError where float32 can't carry a corner or the radiance.
     """
     parts: list[FullPart] = []
     emission: list[Floats64] = []
@@ -311,6 +320,8 @@ def emitter_parts(
         mesh = Mesh(mesh.vertices + shutter.start(light.motion), mesh.triangles)
         velocity = shutter.velocity(light.motion, frame)
         placed = frame.mesh(mesh)
+        if number in lifts:
+            placed = Mesh(placed.vertices + lifts[number], placed.triangles)
         in_reach(placed.vertices, loaded, ("lights", number), "the light's far end")
         parts.append(FullPart(placed, first_material + len(emission), velocity))
         radiance = in_range(rgb(light.radiance), loaded, ("lights", number), "the light's radiance")

@@ -5,11 +5,12 @@ displacement while the shutter is open, which float32 can represent for any expo
 of the positions, in float64. If the exposure has no length, nothing moves.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.building.frame import Frame, in_reach
+from course.building.frame import Frame, frame_of, in_reach
 from course.building.light_power import why_dark
 from course.core.materials import MaterialTable
 from course.core.motion import Motion
@@ -20,13 +21,22 @@ from course.formats.yaml.loading import Loaded
 
 STILL = (0.0, 0.0, 0.0)
 
+FAR = 64.0
+"""Half sizes of all objects beyond which a camera's way leaves them behind."""
+
 
 @dataclass(frozen=True)
 class Shutter:
-    """When light is let in, in seconds."""
+    """When light is let in, in seconds.
+
+    Attributes
+    ----------
+    common : velocity that is taken from all motion, in units of the scene file
+    """
 
     open: float
     duration: float
+    common: tuple[float, float, float] = STILL
 
     def start(self, motion: d.MotionDescription) -> Floats64:
         """(3,) how far something has gone when the shutter opens, in units of the scene file."""
@@ -34,7 +44,21 @@ class Shutter:
 
     def sweep(self, motion: d.MotionDescription) -> Floats64:
         """(3,) how far it goes until the shutter closes."""
-        return np.array(motion.velocity) * self.duration
+        return (np.array(motion.velocity) - self.common) * self.duration
+
+    def with_camera(self, loaded: Loaded, boxes: Sequence[Floats64]) -> "Shutter":
+        """The same, or with the camera's velocity in common where it goes far beyond all objects.
+
+        Whatever is seen sharply then goes with it, and float32 would lose it on the way.
+
+        ``boxes`` : (2, 3) each, of the objects when the shutter opens
+        """
+        velocity = loaded.description.camera.motion.velocity
+        way = np.abs(np.array(velocity) * self.duration).max()
+        if not boxes or not way > FAR * frame_of(boxes).scale:
+            return self
+        x, y, z = velocity
+        return replace(self, common=(x, y, z))
 
     def moves(self, motion: d.MotionDescription) -> bool:
         """True if it moves while the shutter is open."""

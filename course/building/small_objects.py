@@ -35,6 +35,9 @@ THIN = 4.0
 DIVIDED = 20_000
 """Largest number of triangles of a mesh whose parts are looked at one by one, which takes less than reading it."""
 
+AT_ONCE = 64.0
+"""Part of an object's way while the shutter is open in which nothing is seen sharply."""
+
 FEW = 64
 """Largest number of an object's triangles that are tested one by one; more are tested by their common box."""
 
@@ -47,7 +50,8 @@ class Extents:
     ----------
     boxes : (F, 2, 3) float64, lowest and highest corner of all that each passes through, first the objects'
     sizes : (F,) float64, of an object the middle one of its three extents, so of a plate the width and of a rod the
-        thickness; of a lamp the same or, if that is more, its distance from the nearest object
+        thickness, or what it goes through at once if that is more (``AT_ONCE``); of a lamp the first or, if that is
+        more, its distance from the nearest object
     """
 
     boxes: Floats64
@@ -62,7 +66,8 @@ def extents_of_objects(bounds: Sequence[Floats64], boxes: Sequence[Floats64]) ->
     """Extents from the box (2, 3) of each object, and from its boxes when the shutter opens and when it closes."""
     swept = np.reshape(boxes, (-1, 2, 2, 3))
     together = np.stack((swept[:, :, 0].min(axis=1), swept[:, :, 1].max(axis=1)), axis=1)
-    return Extents(together, np.array([_middle_extent(box) for box in bounds]))
+    gone = np.abs(swept[:, 1, 0] - swept[:, 0, 0]).max(axis=1, initial=0) / AT_ONCE
+    return Extents(together, np.maximum([_middle_extent(box) for box in bounds], gone))
 
 
 def extents_of_lamps(
@@ -156,16 +161,20 @@ def _between(places: Floats64, sizes: Floats64) -> float:
     return float((places - most * sizes).max() / 2 + (places + most * sizes).min() / 2)
 
 
-def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> bool:
+def warn_of_small(
+    loaded: Loaded, extents: Extents, boxes: Sequence[Floats64], frame: Frame
+) -> bool:
     """Say which object is too small for the scene or for its place in it, once for all of them; whether one is.
 
-    ``extents``: of the objects alone.
+    ``extents``: of the objects alone; ``boxes`` as in ``extents_of_objects``.
     """
-    nearest = np.maximum(extents.boxes[:, 0] - frame.center, frame.center - extents.boxes[:, 1])
+    swept = np.reshape(boxes, (-1, 2, 2, 3))
+    nearest = np.maximum(swept[:, :, 0] - frame.center, frame.center - swept[:, :, 1])
+    own = np.array([_middle_extent(box) for box in swept[:, 0]])
     # An object without extent is seen by nobody.
-    sizes = np.where(extents.sizes > 0, extents.sizes, np.inf)
+    sizes = np.where(own > 0, own, np.inf)
     excess = np.maximum(
-        nearest.max(axis=1) / (TOO_LARGE * sizes),
+        nearest.max(axis=(1, 2)) / (TOO_LARGE * sizes),
         frame.scale * frame.reach / (LARGEST_RATIO * sizes),
     )
     small = np.flatnonzero(excess > 1)
@@ -177,7 +186,7 @@ def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> bool:
     reaches = np.maximum(extents.boxes[:, 1] - middle, middle - extents.boxes[:, 0]).max(axis=1)
     other = int(reaches.argmax())
     more = f" (and {len(small) - 1:,} more)" if len(small) > 1 else ""
-    named = f"{_named(loaded, worst)} of a width of {extents.sizes[worst]:.3g}{more}"
+    named = f"{_named(loaded, worst)} of a width of {own[worst]:.3g}{more}"
     across = (extents.boxes[other, 1] - extents.boxes[other, 0]).max()
     there = "it" if other == worst else f"{_named(loaded, other)}, {across:.3g} across,"
     warnings.warn(

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from course.building.cameras import compile_lens, make_camera, make_window_camera
+from course.building.coplanar import lifts
 from course.building.cutting import cut
 from course.building.environment import compile_environment
 from course.building.frame import Frame, bounds_of, in_range, in_reach
@@ -19,7 +20,7 @@ from course.building.gloss import (
 from course.building.lamps_and_lobes import compile_combining
 from course.building.lights import Lit, compile_choice, compile_lights, emitter_parts
 from course.building.materials import check_growth, compile_materials, material_columns
-from course.building.motion import check_sweeps, compile_motion, shutter_of
+from course.building.motion import Shutter, check_sweeps, compile_motion, shutter_of
 from course.building.objects import CONVEX, object_mesh
 from course.building.path_tracing import compile_acceleration, compile_paths
 from course.building.small_objects import (
@@ -55,6 +56,7 @@ class Compiled:
     Attributes
     ----------
     frame : where the scene file's origin and unit went
+    shutter : when light is let in, and which motion is left out
     triangles : of each object
     bounds : of each object its lowest and its highest corner, (2, 3) float64 in the units of the scene file, where the
         file puts it: what moves is there at time 0
@@ -64,6 +66,7 @@ class Compiled:
 
     world: FullWorld
     frame: Frame
+    shutter: Shutter
     triangles: tuple[int, ...]
     bounds: tuple[Floats64, ...]
     pieces: int = 0
@@ -81,13 +84,19 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     meshes: list[Mesh] = []
     files: dict[str, Named] = {}
     bounds: list[Floats64] = []
-    boxes: list[Floats64] = []
+    starts: list[Floats64] = []
     for number, thing in enumerate(scene.objects):
         mesh = object_mesh(thing, number, document, loaded.path.parent, files)
         bounds.append(bounds_of(mesh))
         start = shutter.start(thing.motion)
         meshes.append(_moved(mesh, start))
-        boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
+        starts.append(bounds[-1] + start)
+    shutter = shutter.with_camera(loaded, starts)
+    boxes = [
+        box
+        for start, thing in zip(starts, scene.objects, strict=True)
+        for box in (start, start + shutter.sweep(thing.motion))
+    ]
     warn_of_glass(loaded, meshes)
     extents = extents_of_objects(bounds, boxes)
     lamps = extents_of_lamps(loaded, shutter, extents, meshes)
@@ -117,7 +126,8 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     for name, material in zip(columns.names, used.values(), strict=True):
         in_range(rgb(material.emission), loaded, ("materials", name, "emission"), "the emission")
         in_range(rgb(material.unlit), loaded, ("materials", name, "unlit"), "the radiance")
-    emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(used))
+    raised = lifts(loaded, frame, shutter, parts)
+    emitters, emission = emitter_parts(loaded, frame, shutter, len(used), raised)
     materials = compile_materials(used, emission, frame)
     around = outsides(columns.names, scene.materials, len(materials.exponent))
     materials = materials if around is None else replace(materials, outside=around)
@@ -139,13 +149,13 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
             turned=None if scene.integrator.shading_normals == "bent" else materials.refracts,
             hierarchy=compile_acceleration(loaded, shutter, bound),
             least_offset=offset,
-            camera_position=_still_eye(loaded, frame),
+            camera_position=_still_eye(loaded, frame, shutter),
         )
 
     surface, whole, parts = _cut_and_built(parts, things, small, build)
     pieces = sum(len(part.mesh.triangles) for part in parts) - whole
     objects = Lit(surface.triangles, columns.of_lights)
-    lights, skipped = compile_lights(loaded, frame, shutter, bound, materials, objects)
+    lights, skipped = compile_lights(loaded, frame, shutter, bound, materials, objects, raised)
     ambient = np.zeros(3)
     for light in scene.lights:
         if isinstance(light, d.AmbientLight):
@@ -173,7 +183,6 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         paths=compile_paths(scene, bound, materials, columns.of_lights.values()),
         backdrop=scene.environment.seen_by == "camera",
         keeps=scene.integrator.into_surface == "keep",
-        lifted=scene.integrator.surface_offset > 0,
         microfacets=microfacets,
         choice=choice,
         combining=compile_combining(
@@ -186,12 +195,12 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         ),
     )
     check_growth(loaded, columns.names, world)
-    if not (small and warn_of_small(loaded, extents, frame)):
+    if not warn_of_small(loaded, extents, boxes, frame):
         warn_of_unfinished(loaded, parts, things, pieces)
-    raised = surface.triangles.largest_raised
-    warn_of_gaps(loaded, extents, frame, meshes, [part.mesh for part in parts], raised)
+    largest = surface.triangles.largest_raised
+    warn_of_gaps(loaded, extents, frame, meshes, [part.mesh for part in parts], largest)
     triangles = tuple(len(mesh.triangles) for mesh in meshes)
-    return Compiled(world, frame, triangles, tuple(bounds), pieces, bound.needs)
+    return Compiled(world, frame, shutter, triangles, tuple(bounds), pieces, bound.needs)
 
 
 def _cut_and_built(
@@ -213,9 +222,9 @@ def _cut_and_built(
     return surface, whole, parts
 
 
-def _still_eye(loaded: Loaded, frame: Frame) -> Floats64 | None:
+def _still_eye(loaded: Loaded, frame: Frame, shutter: Shutter) -> Floats64 | None:
     """Where all camera rays begin, (3,); None where they don't begin in one place."""
-    camera, shutter = loaded.description.camera, shutter_of(loaded)
+    camera = loaded.description.camera
     if shutter.moves(camera.motion) or (camera.lens and camera.lens.aperture_radius):
         return None
     return frame.position(np.array(camera.eye) + shutter.start(camera.motion))

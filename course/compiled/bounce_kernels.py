@@ -33,6 +33,7 @@ from course.compiled.lanes import (
     THROUGHPUT,
     TIME,
     TRIANGLE,
+    WAY,
     A,
     B,
     D,
@@ -136,7 +137,7 @@ def append(scattering, through, ray, integers, i, s, whole):
         row = c * WIDTH + i
         origin = s[NEAR + row]
         if through:
-            origin = s[P + row] - s[NG + row] * s[OFFSET + i]
+            origin -= s[NG + row] * (s[OFFSET + i] + s[OFFSET + i])
         ray[c], ray[3 + c], ray[6 + c] = origin, s[DIRECTION + row], s[AFTER + row]
         ray[13 + c] = s[P + row]
     ray[10] = s[TIME + i]
@@ -279,11 +280,24 @@ def _mirror(scattering, s, whole):
         s[SHARE + i] = _ONE
         if len(scattering.refraction_index) and scattering.refraction_index[m] > 0:
             share = meet_boundary(scattering.refraction_index[m], i, s)
-        most = _NOTHING
+        whole[WAY + i] = 0
+        most = passed = _NOTHING
         for c in range(3):
             weight = (scattering.mirror[c, m] + share) * s[THROUGHPUT + c * WIDTH + i]
             s[AFTER + c * WIDTH + i] = weight
             most = max(most, weight)
+            if s[SHARE + i] < 1:
+                passed = max(passed, (_ONE - share) * s[THROUGHPUT + c * WIDTH + i])
+        if s[SHARE + i] < 1 and not min(most, passed) > scattering.cutoff:
+            # All light takes the stronger way; see ``course.core.scatter``.
+            if most < passed:
+                whole[WAY + i] = -1
+                continue
+            most = _NOTHING
+            for c in range(3):
+                s[AFTER + c * WIDTH + i] += (_ONE - share) * s[THROUGHPUT + c * WIDTH + i]
+                most = max(most, s[AFTER + c * WIDTH + i])
+            s[SHARE + i] = _ONE
         if not most > scattering.cutoff:
             continue
         kept += 1
@@ -303,6 +317,9 @@ def _refract(scattering, s, whole):
         passed, most = _ONE - s[SHARE + i], _NOTHING
         for c in range(3):
             weight = passed * s[THROUGHPUT + c * WIDTH + i]
+            if whole[WAY + i]:
+                share = scattering.mirror[c, whole[MATERIAL + i]] + s[SHARE + i]
+                weight = share * s[THROUGHPUT + c * WIDTH + i] + weight
             s[AFTER + c * WIDTH + i] = weight
             most = max(most, weight)
         if not most > scattering.cutoff:

@@ -129,7 +129,7 @@ KNOWN: dict[type, Known] = {
         also=lambda e: _owned(e.cube_map, "lookup_seamless" if e.seamless else "lookup"),
     ),
     DirectLight: Known(_DIRECT, _ROWS),
-    FullDirectLight: Known(_DIRECT, _ROWS, "highlights lifted choice"),
+    FullDirectLight: Known(_DIRECT, _ROWS, "highlights choice"),
     Sky: Known("environment sampling", "surface diffuses refracts"),
     ProductSampling: Known("", "rows columns texel_rows texel_columns"),
     DirectionalLight: Known("", f"{_LIGHT} to_light limit"),

@@ -36,7 +36,7 @@ from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
 from course.core.tiles import Area
 from course.core.tracer import Tracer
-from course.core.types import Floats32, Indices
+from course.core.types import Floats, Floats32, Indices
 from course.extras.absorption import Absorption
 from course.extras.mesh_light import MeshLight
 from course.extras.near_plane import NearPlaneCamera
@@ -84,8 +84,9 @@ class _Lamp:
     """A row of ``Lights``."""
 
     kind: int
-    place: tuple[Floats32, Floats32, Floats32, Floats32]
+    place: tuple[Floats32, Floats32, Floats32]
     emitter: int = 0
+    normal: Floats | None = None
     radius: float = 0.0
 
 
@@ -93,29 +94,25 @@ def _lamp(light: Light) -> _Lamp:
     """A light as the loop knows it."""
     nowhere = _NOWHERE
     if type(light) is DirectionalLight:
-        return _Lamp(lamp_kernels.FAR_AWAY, (light.to_light, nowhere, nowhere, nowhere))
+        return _Lamp(lamp_kernels.FAR_AWAY, (light.to_light, nowhere, nowhere))
     if type(light) is PointLight:
         place: Any = (light.position, nowhere, nowhere)
-        return _Lamp(lamp_kernels.AT_A_POINT, *_emitting(light, place))
+        return _Lamp(lamp_kernels.AT_A_POINT, place, *_emitting(light))
     if type(light) is RectangleLight:
         place = light.corner, light.edge_u, light.edge_v
-        return _Lamp(lamp_kernels.RECTANGLE, *_emitting(light, place))
+        return _Lamp(lamp_kernels.RECTANGLE, place, *_emitting(light))
     if type(light) is VisibleSphereLight:
-        return _Lamp(
-            lamp_kernels.VISIBLE, (light.center, nowhere, nowhere, nowhere), radius=light.radius
-        )
+        return _Lamp(lamp_kernels.VISIBLE, (light.center, nowhere, nowhere), radius=light.radius)
     if type(light) is MeshLight:
-        return _Lamp(lamp_kernels.TRIANGLES, (nowhere, nowhere, nowhere, nowhere))
+        return _Lamp(lamp_kernels.TRIANGLES, (nowhere, nowhere, nowhere))
     assert isinstance(light, SphereLight)
-    place = light.center, nowhere, nowhere, nowhere
-    return _Lamp(_SPHERES[light.samples], place, int(light.emitter), light.radius)
+    place = light.center, nowhere, nowhere
+    return _Lamp(_SPHERES[light.samples], place, int(light.emitter), radius=light.radius)
 
 
-def _emitting(light: PointLight | RectangleLight, place: Any) -> tuple[Any, int]:
-    """The places with the normal, and the kind of emitter."""
-    if light.normal is None:
-        return (*place, _NOWHERE), 0
-    return (*place, light.normal), 1 + light.two_sided
+def _emitting(light: PointLight | RectangleLight) -> tuple[int, Floats | None]:
+    """The kind of emitter, and the normal."""
+    return (0, None) if light.normal is None else (1 + light.two_sided, light.normal)
 
 
 def _lights(lights: tuple[Light, ...], dimensions: Dimensions) -> lamp_kernels.Lights:
@@ -127,7 +124,10 @@ def _lights(lights: tuple[Light, ...], dimensions: Dimensions) -> lamp_kernels.L
     return lamp_kernels.Lights(
         kind=np.array([lamp.kind for lamp in lamps], np.int64),
         emitter=np.array([lamp.emitter for lamp in lamps], np.int64),
-        place=np.array([lamp.place for lamp in lamps], np.float32).reshape(n, 4, 3),
+        place=np.array([lamp.place for lamp in lamps], np.float32).reshape(n, 3, 3),
+        normal=np.array(
+            [_NOWHERE if lamp.normal is None else lamp.normal for lamp in lamps], np.float64
+        ).reshape(n, 3),
         radius=radii.astype(np.float32),
         color=np.array([light.color for light in lights], np.float32).reshape(n, 3),
         limit=np.array([light.limit for light in lights], np.float32),

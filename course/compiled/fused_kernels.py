@@ -68,7 +68,7 @@ from course.compiled.packet_kernels import (
 )
 from course.compiled.packets import COHERENT
 from course.compiled.path_kernels import bounce
-from course.compiled.point_kernels import place, to_viewer
+from course.compiled.point_kernels import pull, to_viewer
 from course.core.accelerator import NO_HIT
 from course.core.ray_offset import OFFSET as LEAST_OFFSET
 from course.core.types import Floats32, Indices, Mask, Materials
@@ -344,20 +344,6 @@ def _find(scene, s, whole):
             s[P + c + i] = s[EDGES + c + i] * a + s[EDGES + _EDGE_2 + c + i] * b + s[PLANE + c + i]
         s[A + i] = min(a, b, _ONE - a - b) - s[EDGES + 6 * WIDTH + i]
     for i in range(WIDTH):
-        if s[A + i] < 0 and whole[HIT + i]:
-            k = np.uint64(whole[TRIANGLE + i])
-            s[P + i], s[P + _Y + i], s[P + _Z + i] = place(
-                k, s[U + i], s[V + i], scene.planes, scene.edges, scene.inset
-            )
-    if len(scene.velocity):
-        for i in range(WIDTH):
-            mover = -1
-            for j in range(1, len(scene.first)):
-                mover += whole[TRIANGLE + i] >= scene.first[j]
-            if mover >= 0:
-                for c in range(3):
-                    s[P + c * WIDTH + i] += scene.velocity[mover, c] * s[TIME + i]
-    for i in range(WIDTH):
         dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
         nx, ny, nz = s[PLANE + 3 * WIDTH + i], s[PLANE + 4 * WIDTH + i], s[PLANE + 5 * WIDTH + i]
         # The sum begins with 0, as NumPy's does: it is never -0.
@@ -369,6 +355,23 @@ def _find(scene, s, whole):
         s[NEAR + _Y + i] = s[P + _Y + i] + ny * far
         s[NEAR + _Z + i] = s[P + _Z + i] + nz * far
         s[OFFSET + i], s[SIDE + i] = far, side
+    for i in range(WIDTH):
+        if s[A + i] < 0 and whole[HIT + i]:
+            s[NEAR + i], s[NEAR + _Y + i], s[NEAR + _Z + i] = pull(
+                np.uint64(whole[TRIANGLE + i]),
+                *(s[U + i], s[V + i], s[NEAR + i], s[NEAR + _Y + i], s[NEAR + _Z + i]),
+                *(scene.planes, scene.edges, scene.inset),
+            )
+    if len(scene.velocity):
+        for i in range(WIDTH):
+            mover = -1
+            for j in range(1, len(scene.first)):
+                mover += whole[TRIANGLE + i] >= scene.first[j]
+            if mover >= 0:
+                for c in range(3):
+                    moved = scene.velocity[mover, c] * s[TIME + i]
+                    s[P + c * WIDTH + i] += moved
+                    s[NEAR + c * WIDTH + i] += moved
     if not smooth:
         return
     for i in range(WIDTH):

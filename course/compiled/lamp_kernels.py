@@ -44,6 +44,7 @@ from course.compiled.lanes import (
     C,
     D,
     E,
+    P,
     U,
 )
 from course.compiled.mesh_kernels import Meshes, towards_triangles
@@ -54,7 +55,8 @@ from course.compiled.packet_kernels import TFAR, TO, WIDTH
 from course.compiled.packet_kernels import U as HIT_U
 from course.compiled.packet_kernels import V as HIT_V
 from course.core.lights.sample import CLOSEST, TO_THE_LIGHT
-from course.core.types import Floats32, Indices, Mask
+from course.core.lights.sample import RAISED as END
+from course.core.types import Floats32, Floats64, Indices, Mask
 
 AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE, TRIANGLES = range(8)
 """Kinds of lights."""
@@ -76,7 +78,8 @@ class Lights(NamedTuple):
     ----------
     kind : (L,) AT_A_POINT ... TRIANGLES
     emitter : (L,) 0 for a light by intensity, 1 for one by radiance, 2 if both its sides shine
-    place : (L, 4, 3) float32: position, centre, corner or direction to the light; edges; normal
+    place : (L, 3, 3) float32: position, centre, corner or direction to the light; edges
+    normal : (L, 3) float64 of flat emitters
     radius : (L, 4) float32, the radius, its double, -1 / radius, and its square
     color : (L, 3) float32
     limit : (L,) float32 length of the shadow rays, in lengths of the vector to the light
@@ -88,6 +91,7 @@ class Lights(NamedTuple):
     kind: Indices
     emitter: Indices
     place: Floats32
+    normal: Floats64
     radius: Floats32
     color: Floats32
     limit: Floats32
@@ -214,11 +218,12 @@ def _sample(lights, k, call, s):
             cosine = cosine * s[INVERSE + i] * inward
             s[FACTOR + i] *= cosine if cosine > 0 else _NOTHING
         return
-    nx, ny, nz = lights.place[k, 3, 0], lights.place[k, 3, 1], lights.place[k, 3, 2]
+    nx, ny, nz = lights.normal[k, 0], lights.normal[k, 1], lights.normal[k, 2]
     for i in range(WIDTH):
-        cosine = -s[INVERSE + i] * (
-            nx * s[SHADOW_TO + i] + ny * s[SHADOW_TO + _Y + i] + nz * s[SHADOW_TO + _Z + i]
-        )
+        height = nx * (np.float64(s[POINT + i]) - np.float64(x0))
+        height += ny * (np.float64(s[POINT + _Y + i]) - np.float64(y0))
+        height += nz * (np.float64(s[POINT + _Z + i]) - np.float64(z0))
+        cosine = np.float32(height) * s[INVERSE + i]
         s[FACTOR + i] *= abs(cosine) if emitter > 1 else (cosine if cosine > 0 else _NOTHING)
 
 
@@ -233,7 +238,7 @@ def _bulge(bulge, k, u, v):
 def _raise(bulge, most, limit, s, whole):
     """Raise the origins of shadow rays from facets that face away from the light; how many.
 
-    See ``DirectLight._visible``. The light is looked at from the facet, so ``POINT`` keeps the vector to it.
+    See ``DirectLight._visible``.
     """
     raised = 0
     for i in range(WIDTH):
@@ -255,7 +260,6 @@ def _raise(bulge, most, limit, s, whole):
         whole[RAISED + i] = -1
         s[ABOVE + TFAR + i] = _ONE
         for c in range(0, 3 * WIDTH, WIDTH):
-            s[POINT + c + i] = s[SHADOW_TO + c + i]
             up = s[NS + c + i] * height
             s[ABOVE + c + i] = s[SHADOW + c + i]
             s[ABOVE + TO + c + i] = up
@@ -266,7 +270,19 @@ def _raise(bulge, most, limit, s, whole):
 
 
 @njit(**LEAN)
-def _highlight(exponent, specular, color, raised, call, s, whole):
+def _short_of(normal, s):
+    """``FlatLight.short_of``."""
+    nx, ny, nz = np.float32(normal[0]), np.float32(normal[1]), np.float32(normal[2])
+    for i in range(WIDTH):
+        x, y, z = s[SHADOW_TO + i], s[SHADOW_TO + _Y + i], s[SHADOW_TO + _Z + i]
+        half = (_NOTHING + nx * x + ny * y + nz * z) / -_TWO
+        half = min(max(half, -END), END)
+        s[SHADOW_TO + i], s[SHADOW_TO + _Y + i] = x + nx * half, y + ny * half
+        s[SHADOW_TO + _Z + i] = z + nz * half
+
+
+@njit(**LEAN)
+def _highlight(exponent, specular, color, call, s, whole):
     """Add a light's highlights to ``SPECULAR``; see ``blinn_phong_highlight``."""
     some = False
     for i in range(WIDTH):
@@ -277,11 +293,10 @@ def _highlight(exponent, specular, color, raised, call, s, whole):
         if not (specular[0, m] != 0 or specular[1, m] != 0 or specular[2, m] != 0):
             continue
         some = True
-        to = POINT if raised and whole[RAISED + i] != 0 else SHADOW_TO
         scale = s[INVERSE + i]
-        x = s[to + i] * scale - s[TO + i]
-        y = s[to + _Y + i] * scale - s[TO + _Y + i]
-        z = s[to + _Z + i] * scale - s[TO + _Z + i]
+        x = s[POINT + i] * scale - s[TO + i]
+        y = s[POINT + _Y + i] * scale - s[TO + _Y + i]
+        z = s[POINT + _Z + i] * scale - s[TO + _Z + i]
         squared = _NOTHING + x * x + y * y + z * z
         cosine = _NOTHING + x * s[NS + i] + y * s[NS + _Y + i] + z * s[NS + _Z + i]
         cosine /= np.sqrt(max(squared, _LEAST_HALF))
@@ -314,7 +329,7 @@ def illuminate(
         if lights.width[k] > 2:
             draw(numbers, pair + 1, 1, same, s, whole, U + 2 * WIDTH)
     for i in range(3 * WIDTH):
-        s[SHADOW + i] = s[POINT + i] = s[NEAR + i]
+        s[SHADOW + i], s[POINT + i] = s[NEAR + i], s[P + i]
     if lights.moves[k]:
         for c in range(3):
             for i in range(WIDTH):
@@ -342,6 +357,13 @@ def illuminate(
     if candidates == 0:
         return 0
     limit, raised = lights.limit[k], 0
+    for i in range(3 * WIDTH):
+        # The light is looked at from the hit, and the shadow ray begins above it.
+        s[POINT + i] = s[SHADOW_TO + i]
+        if limit <= _TO_THE_LIGHT:
+            s[SHADOW_TO + i] = s[SHADOW_TO + i] + s[P + i] - s[NEAR + i]
+    if lights.emitter[k] and (lights.kind[k] == AT_A_POINT or lights.kind[k] == RECTANGLE):
+        _short_of(lights.normal[k], s)
     if len(scene.bulge):
         raised = _raise(scene.bulge, scene.most, limit, s, whole)
         counts[SECOND_RAYS] += raised
@@ -369,5 +391,5 @@ def illuminate(
             s[DIFFUSE + c * WIDTH + i] += s[IRRADIANCE + i] * color
     if len(materials.exponent):
         color = lights.color[k]
-        _highlight(materials.exponent, materials.specular, color, raised, call, s, whole)
+        _highlight(materials.exponent, materials.specular, color, call, s, whole)
     return candidates

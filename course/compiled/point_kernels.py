@@ -34,13 +34,10 @@ def _pulled(x, y, z, a, b, c, plane, edges, inset):
 
 
 @njit(**LEAN)
-def place(k, a, b, planes, edges, inset):
-    """The point of triangle k with barycentrics a and b, pulled off its edges."""
-    x = edges[k, 0] * a + edges[k, 3] * b + planes[k, 0]
-    y = edges[k, 1] * a + edges[k, 4] * b + planes[k, 1]
-    z = edges[k, 2] * a + edges[k, 5] * b + planes[k, 2]
+def pull(k, a, b, x, y, z, planes, edges, inset):
+    """Where rays begin above a point of triangle k with barycentrics a and b, pulled off its edges."""
     c = _ONE - a - b
-    if min(a, b, c) < edges[k, 6] and (c < inset[k, 0] or a < inset[k, 1] or b < inset[k, 2]):
+    if c < inset[k, 0] or a < inset[k, 1] or b < inset[k, 2]:
         return _pulled(x, y, z, a, b, c, planes[k], edges[k], inset[k])
     return x, y, z
 

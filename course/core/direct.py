@@ -39,7 +39,7 @@ class Candidates:
     irradiance : (k,) float32, cosine times ``Sample.factor``: E / pi is this times the light's colour; 0 for others
     cosine : (k,) float32, between shading normal and direction to the light
     origin : (3, k) float32, of the shadow rays
-    to_light : (3, k) or (3, 1) float32, not normalised
+    to_light : (3, k) or (3, 1) float32, from the hit, not normalised
     inverse_length : (k,) or (1,) float32, 1 / its length
     """
 
@@ -116,8 +116,8 @@ class DirectLight:
         return diffuse, specular
 
     def _points(self, hits: Hits, light: Light) -> Floats32:
-        """Shading points (3, n) for which the light is sampled: the shadow rays' origins, in a moving light's frame."""
-        return self._as_if_still(hits.near_origin, hits, light)
+        """Shading points (3, n) for which the light is sampled: the hits, in a moving light's frame."""
+        return self._as_if_still(hits.p, hits, light)
 
     def _as_if_still(self, points: Floats32, hits: Hits, light: Light) -> Floats32:
         """Points (3, n) in the frame of a moving light, where the light stands still: points minus its displacement."""
@@ -180,19 +180,19 @@ class DirectLight:
         when = None if time is None else time.take(column)
         free_above = unoccluded(foot, up, 1.0, stats, when)
         # Few origins are raised, so they are changed and restored: a copy of all would cost more.
-        unraised = to_light.take(column, axis=1)
         origin[:, column] = foot + up
         if light.limit <= TO_THE_LIGHT:
             to_light[:, column] -= up
         free = unoccluded(origin, to_light, light.limit, stats, time, active=mask)
         origin[:, column] = foot
-        to_light[:, column] = unraised
         free[column] &= free_above
         return free
 
     def _to_light(self, light: Light, hits: Hits, candidates: Candidates) -> Floats32:
-        """Vectors (3, k) of the shadow rays to the light."""
-        return repeated(candidates.to_light, candidates.origin.shape[1])
+        """Vectors (3, k) of the shadow rays, which begin above the hits for which the light was sampled."""
+        if light.limit > TO_THE_LIGHT:
+            return repeated(candidates.to_light, candidates.origin.shape[1])
+        return light.short_of(candidates.to_light + candidates.of(hits.p) - candidates.origin)
 
     def _turned_away(
         self, hits: Hits, candidates: Candidates, to_light: Floats32, most: np.float32

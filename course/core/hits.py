@@ -28,7 +28,7 @@ class Hits:
     p : (3, n) float32, the point
     ng, ns : (3, n) float32, unit geometric and shading normals, on the incoming side
     offset : (n,) float32, distance from p at which rays begin (``course.core.ray_offset``)
-    near_origin : (3, n) float32, p + offset ng, the origins of rays that leave on the incoming side
+    near_origin : (3, n) float32, p + offset ng, pulled off edges: the origins of rays that leave on the incoming side
     side : (n,) float32, 1 at the front of the triangle, -1 at the back
     time : (n,) float32, share of the exposure; None if nothing moves
     tint : (3, n) float32, colour factor of textures, 1 at hits without a texture; None without textures
@@ -61,9 +61,10 @@ class Hits:
         return np.asarray(self.side > 0)
 
     def far_origin(self, which: Indices) -> Floats32:
-        """Points p - offset ng, (3, m), the origins of rays that leave hits ``which`` (m,) on the far side."""
-        origin: Floats32 = self.p.take(which, axis=1)
-        origin -= self.ng.take(which, axis=1) * self.offset.take(which)
+        """The same on the far side, (3, m), of hits ``which`` (m,)."""
+        twice = 2 * self.offset.take(which)
+        origin: Floats32 = self.near_origin.take(which, axis=1)
+        origin -= self.ng.take(which, axis=1) * twice
         return origin
 
 
@@ -107,8 +108,8 @@ class Surface:
             return hits
         time = time if hits.ray is None else time.take(hits.ray)
         if isinstance(self.accelerator, MovingAccelerator):
-            self.accelerator.follow(hits.p, hits.triangle, time)
-            np.add(hits.p, hits.ng * hits.offset, out=hits.near_origin)
+            for points in (hits.p, hits.near_origin):
+                self.accelerator.follow(points, hits.triangle, time)
         return replace(hits, time=time)
 
     def _find(self, found: Intersections, direction: Floats32) -> Hits:
@@ -132,7 +133,6 @@ class Surface:
         along_2 *= v
         p = np.add(along_1, along_2, out=along_1)
         p += corner
-        pull_off_edges(triangles, p, triangle, u, v, widest)
 
         # ---- normals
         facing = dot(ng, direction)
@@ -151,6 +151,7 @@ class Surface:
                     ns[:, some] = self._interpolated(*at, direction.take(some, axis=1))
         near_origin = ng * offset
         near_origin += p
+        pull_off_edges(triangles, near_origin, triangle, u, v, widest)
         return Hits(
             ray, triangle, u, v, t, material, direction, p, ng, ns, offset, near_origin, side
         )

@@ -80,6 +80,11 @@ class Scatter:
         through = np.repeat(boundary.refracted[None], 3, axis=0)
         if throughput is not None:
             weight, through = weight * throughput, through * throughput
+        # A way that is too weak to be followed gives its light to the other one: it would be missing.
+        most = weight.max(axis=0), through.max(axis=0)
+        parted, both = np.minimum(*most) > self.cutoff, weight + through
+        weight = np.where(parted, weight, both * (most[0] >= most[1]))
+        through = np.where(parted, through, both * (most[0] < most[1]))
         reflected = self._leaving(hits, weight, None, path, medium, depth, draws)
         refracted = self._leaving(hits, through, boundary, path, medium, depth, draws)
         if reflected is None or refracted is None:

@@ -85,4 +85,4 @@ def keep_normals(kept: Mask, hits: Hits) -> None:
     if ns is not ng:
         ns[:, which] *= -1
     hits.side[which] = 1
-    hits.near_origin[:, which] = hits.p[:, which] + ng[:, which] * hits.offset[which]
+    hits.near_origin[:, which] += ng[:, which] * (2 * hits.offset[which])

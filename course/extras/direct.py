@@ -6,7 +6,6 @@ import numpy as np
 
 from course.core.direct import Candidates, DirectLight
 from course.core.hits import Hits
-from course.core.lights.sample import TO_THE_LIGHT, Light
 from course.core.rays import Draws
 from course.core.types import Floats32, Indices
 from course.core.vectors import dot
@@ -21,12 +20,10 @@ class FullDirectLight(DirectLight):
     Attributes
     ----------
     highlights : by other models than Blinn's with the cosine; None if there are none
-    lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
     choice : chooses one light for each hit; None if all lights send light to all hits
     """
 
     highlights: Highlights | None = None
-    lifted: bool = False
     choice: LightChoice | None = None
 
     def _from_lights(
@@ -48,18 +45,6 @@ class FullDirectLight(DirectLight):
             diffuse = _spread(diffuse, more[0], which, hits.size)
             specular = _spread(specular, more[1], which, hits.size)
         return diffuse, specular
-
-    def _points(self, hits: Hits, light: Light) -> Floats32:
-        return (
-            self._as_if_still(hits.p, hits, light) if self.lifted else super()._points(hits, light)
-        )
-
-    def _to_light(self, light: Light, hits: Hits, candidates: Candidates) -> Floats32:
-        to_light = super()._to_light(light, hits, candidates)
-        if self.lifted and light.limit <= TO_THE_LIGHT:
-            # The light was sampled for the surface; the shadow ray starts above it.
-            to_light = to_light + candidates.of(hits.p) - candidates.origin
-        return to_light
 
     def _highlight(self, hits: Hits, candidates: Candidates, irradiance: Floats32) -> Floats32:
         highlight = super()._highlight(hits, candidates, irradiance)

@@ -20,6 +20,7 @@ import numpy as np
 from course.core.direct import Candidates, DirectLight
 from course.core.hits import Hits, Surface
 from course.core.integrator import Integrator
+from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sample import Light, Sample
 from course.core.materials import Lookup
 from course.core.motion import Motion
@@ -93,14 +94,15 @@ class Lamp(ABC):
 
 @dataclass(frozen=True)
 class FlatLamp(Lamp):
-    """A parallelogram, sampled uniformly by area; ``normal`` (3,) float32 is on the side that emits."""
+    """A parallelogram, sampled uniformly by area."""
 
-    normal: Floats32
+    light: RectangleLight
 
     def density(self, points: Floats32, to_light: Floats32) -> Floats32:
         """See ``Lamp``."""
         distance = np.sqrt(dot(to_light, to_light))
-        cosine = -dot(self.normal[:, None], to_light) / np.maximum(distance, np.float32(1e-30))
+        height = self.light.height(points, self.light.corner[:, None])
+        cosine = height / np.maximum(distance, np.float32(1e-30))
         found: Floats32 = self.functions.area_density(self.area, distance, cosine)
         return found
 
@@ -286,11 +288,13 @@ class LobeLight(MetalLight):
         assert self.lamp is not None
         assert self.combining is not None
         of, way = found.of, found.to_light * found.inverse_length
-        lamp = self.lamp.density(found.origin, found.to_light)
+        lamp = self.lamp.density(of(hits.p), found.to_light)
+        # Weighted as seen from where the lobe's rays begin, as what these meet is.
+        seen = self.lamp.density(found.origin, self._to_light(self.lamp.light, hits, found))
         arrays = of(hits.material), of(hits.direction), of(hits.ns), of(hits.ng)
         lobe = self.combining.lobe_density(*arrays, way)
         # The light's colour is its radiance times its area over pi.
-        share = self.combining.weights(lamp, lobe, self.combining.peak(arrays[0]))[0]
+        share = self.combining.weights(seen, lobe, self.combining.peak(arrays[0]))[0]
         sent = np.float32(np.pi / self.lamp.area) * lobe * share
         sent *= (found.irradiance > 0) & (lamp > 0)
         sent /= np.where(lamp > 0, lamp, np.float32(1))

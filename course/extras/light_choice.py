@@ -205,7 +205,7 @@ class ChosenLight(Light):
         first = choice.lights[self.number[0]]
         if type(first) is PointLight:
             on_light = choice.positions.take(self.number, axis=1)
-            found = towards(on_light, points, first.normal, first.two_sided)
+            found = first.from_point(on_light, points, on_light)
             to_light, lengths, factor = found.to_light, found.inverse_length, found.factor
         else:
             to_light, (lengths, factor) = (

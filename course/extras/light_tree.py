@@ -167,5 +167,5 @@ def bounds_of(light: Light) -> Bounds | None:
         case _:
             return None
     if isinstance(light, PointLight | RectangleLight) and light.normal is not None:
-        cone = ALL_SIDES if light.two_sided else (light.normal, 0.0)
+        cone = ALL_SIDES if light.two_sided else (light.normal.astype(np.float32), 0.0)
     return corners.min(axis=0), corners.max(axis=0), *cone

@@ -10,13 +10,14 @@ would then carry many times the light of the others.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from course.core.fresnel_refraction import refract
 from course.core.hits import Hits
 from course.core.rays import Draws
-from course.core.types import Floats32, Floats64, Functions, Indices, Mask
+from course.core.types import Floats, Floats32, Floats64, Functions, Indices, Mask
 from course.core.vectors import dot, reflect
 from course.extras.hemisphere import turned
 from course.extras.hits_on import hits_on
@@ -65,8 +66,10 @@ class Microfacets:
         ns : (3, n) shading normals
         way : (3, n) unit vectors
         """
+        # In float64: at a small roughness the last digits of the normals decide.
+        direction, ns = direction.astype(np.float64), ns.astype(np.float64)
         wm = way - direction
-        wm /= np.sqrt(np.maximum(dot(wm, wm), np.float32(1e-20)))
+        wm /= np.sqrt(np.maximum(dot(wm, wm), 1e-20))
         cosine = -dot(wm, direction)
         wo, wm = _upright(ns, -direction, wm)
         np.maximum(wo[2], FLATTEST, out=wo[2])
@@ -98,7 +101,7 @@ class Microfacets:
         return share
 
 
-def _upright(ns: Floats32, *vectors: Floats32) -> list[Floats32]:
+def _upright(ns: Floats, *vectors: Floats) -> list[Any]:
     """Vectors, (3, n) each, in frames whose third axes are the normals (3, n)."""
     one, none = np.ones_like(ns[0]), np.zeros_like(ns[0])
     frame = turned(ns, one, none, none), turned(ns, none, one, none), ns

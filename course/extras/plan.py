@@ -114,10 +114,10 @@ def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     highlights = materials.highlights if isinstance(materials, FullMaterials) else None
     choice = world.choice if world.lights else None
     extras = sky, highlights, choice, getattr(world.surface, "shine", None)
-    if direct is None or not (world.lifted or any(extra is not None for extra in extras)):
+    if direct is None or all(extra is None for extra in extras):
         return direct
     known = same_fields(direct) | {"sky": sky}
-    return FullDirectLight(**known, highlights=highlights, lifted=world.lifted, choice=choice)
+    return FullDirectLight(**known, highlights=highlights, choice=choice)
 
 
 def _path_integrator(

@@ -46,7 +46,6 @@ class FullWorld(World):
     paths : None for the distribution ray tracer
     backdrop : true if only camera rays see the environment
     keeps : true if directions that point into the surface are kept
-    lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
     choice : chooses one light for each hit; None if all lights send light to all hits
     combining : lamps and lobes that are sampled together; None where there are none
     """
@@ -58,7 +57,6 @@ class FullWorld(World):
     paths: Paths | None = None
     backdrop: bool = False
     keeps: bool = False
-    lifted: bool = False
     choice: LightChoice | None = None
     microfacets: tuple[Microfacets, ...] = ()
     combining: Combining | None = None

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from course.building.materials import material_columns
-from course.building.motion import shutter_of
 from course.core.types import Floats32, Floats64, Numbers
 from course.formats.yaml import description as d
 from course.recording.recorder import ENVIRONMENT_LIGHT, Recorder, Table
@@ -101,7 +100,7 @@ class Names:
         description, frame = scene.loaded.description, scene.compiled.frame
         self.materials = material_columns(description).names
         triangles = scene.compiled.world.surface.triangles
-        shutter = shutter_of(scene.loaded)
+        shutter = scene.compiled.shutter
         # As tables are made: what stands still first, then what moves, by velocity.
         velocities = [shutter.velocity(thing.motion, frame) for thing in description.objects]
         order = iter(

@@ -4,26 +4,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT, Light, Sample, Towards
-from course.core.types import Floats32
+from course.core.lights.sample import TO_THE_LIGHT, FlatLight, Light, Sample, Towards
+from course.core.types import Floats32, Floats64
 
 
 @dataclass(frozen=True)
-class PointLight(Light):
+class PointLight(FlatLight):
     """Intensity I [W/sr] at a point: E = I cos / d^2. ``color`` is I / pi.
 
-    Attributes
-    ----------
-    normal : (3,) float32 unit, if the light stands for a cell of an emitting ``RectangleLight``; I is then multiplied
-        by the emitter's cosine
-    two_sided, visible : as in ``RectangleLight``, for such a cell
-    blockable : true if the light is also blocked by a surface that it lies on
+    With a normal the light stands for a cell of an emitting ``RectangleLight``, and I is multiplied by the emitter's
+    cosine. ``blockable`` is true if it is also blocked by a surface that it lies on.
     """
 
     name: str
     position: Floats32
     color: Floats32
-    normal: Floats32 | None = None
+    normal: Floats64 | None = None
     width: int = 0
     velocity: Floats32 | None = None
     two_sided: bool = False
@@ -33,13 +29,12 @@ class PointLight(Light):
     @property
     def limit(self) -> float:
         """See ``Light``."""
-        if self.blockable:
-            return TO_THE_LIGHT
-        return TO_A_SURFACE if self.normal is not None and self.visible else TO_A_POINT
+        return TO_THE_LIGHT if self.blockable else super().limit
 
     def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
         """See ``Light``."""
-        return towards(self.position[:, None], points, self.normal, self.two_sided)
+        place = self.position[:, None]
+        return self.from_point(place, points, place)
 
 
 _ONE = np.ones(1, np.float32)

@@ -2,11 +2,11 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.core.types import Floats32
+from course.core.types import Floats32, Floats64
 from course.core.vectors import dot
 
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
@@ -34,7 +34,10 @@ class Sample:
 
 
 Towards = Callable[..., Sample]
-"""Makes the sample of points on a light (3, n) for shading points (3, n): ``towards``, or its compiled form."""
+"""``towards``, or its compiled form."""
+
+RAISED = np.float32(2.0**-19)
+"""Height above an emitter [unit of the compiled scene] at which shadow rays end."""
 
 CLOSEST = 1e-7
 """Distances [unit of the compiled scene] are clamped to at least this, so that no light is infinitely bright."""
@@ -61,6 +64,10 @@ class Light(ABC):
     def limit(self) -> float:
         """Length of the shadow rays, as a fraction of the distance to the light."""
 
+    def short_of(self, to_light: Floats32) -> Floats32:
+        """Vectors (3, n) of shadow rays that end before the light."""
+        return to_light
+
     @abstractmethod
     def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
         """One point on the light for each shading point.
@@ -73,18 +80,52 @@ class Light(ABC):
         """
 
 
-def towards(
-    on_light: Floats32, points: Floats32, normal: Floats32 | None = None, two_sided: bool = False
-) -> Sample:
-    """The sample for shading points (3, n) and points on a light, (3, n) or (3, 1).
+class FlatLight(Light):
+    """A light that may be a flat Lambertian emitter.
 
-    A Lambertian emitter has a normal, and may be two-sided (``RectangleLight``); a light with an intensity has none.
+    Attributes
+    ----------
+    normal : (3,) float64 unit, on the side that emits; None if the points have an intensity
+    two_sided : true if the back emits like the front
+    visible : true if an emitter is also a surface of the scene
     """
+
+    normal: Floats64 | None
+    two_sided: bool
+    visible: bool
+
+    @property
+    def limit(self) -> float:
+        """See ``Light``."""
+        return TO_A_SURFACE if self.normal is not None and self.visible else TO_A_POINT
+
+    def height(self, points: Floats32, place: Floats32) -> Floats32:
+        """Height (n,) of points (3, n) above the plane through places, (3, 1) or (3, n)."""
+        assert self.normal is not None
+        # In float64: close to the plane, float32 would lose the height to the way along it.
+        return dot(self.normal[:, None], points - place.astype(np.float64)).astype(np.float32)
+
+    def short_of(self, to_light: Floats32) -> Floats32:
+        """Ends above the emitter: a ray at a small angle to its plane would hit it before its end, by rounding."""
+        if self.normal is None:
+            return to_light
+        normal = self.normal[:, None].astype(np.float32)
+        return to_light + normal * np.clip(dot(normal, to_light) / -2, -RAISED, RAISED)
+
+    def from_point(self, on_light: Floats32, points: Floats32, place: Floats32) -> Sample:
+        """``towards``, times an emitter's cosine; ``place`` as in ``height``."""
+        sample = towards(on_light, points)
+        if self.normal is None:
+            return sample
+        cosine = self.height(points, place) * sample.inverse_length
+        cosine = np.abs(cosine) if self.two_sided else np.maximum(cosine, 0)
+        return replace(sample, factor=sample.factor * cosine)
+
+
+def towards(on_light: Floats32, points: Floats32) -> Sample:
+    """The sample for shading points (3, n) and points on a light with an intensity, (3, n) or (3, 1)."""
     to_light = on_light - points
-    inverse_length, factor = inverse_square(to_light)
-    if normal is not None:
-        factor *= _emitted_cosine(normal, to_light, inverse_length, two_sided)
-    return Sample(to_light, inverse_length, factor)
+    return Sample(to_light, *inverse_square(to_light))
 
 
 def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
@@ -93,14 +134,3 @@ def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
     np.maximum(squared, np.float32(CLOSEST * CLOSEST), out=squared)
     inverse = np.divide(np.float32(1), squared, out=squared)
     return np.sqrt(inverse), inverse
-
-
-def _emitted_cosine(
-    normal: Floats32, to_light: Floats32, inverse_length: Floats32, two_sided: bool
-) -> Floats32:
-    """Cosine (n,) between an emitter's normal (3,) and the emitted direction: at least 0, or absolute if two-sided."""
-    cosine = dot(normal[:, None], to_light)
-    cosine *= -inverse_length
-    if two_sided:
-        return np.abs(cosine, out=cosine)
-    return np.maximum(cosine, 0, out=cosine)
