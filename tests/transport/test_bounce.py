@@ -197,16 +197,14 @@ def test_clear_glass_in_a_white_furnace_cannot_be_seen(
 
 
 @pytest.mark.parametrize("cutoff", [0.1, 0.02, 1 / 512])
-def test_the_cutoff_takes_no_more_than_what_it_cuts(make_scene: MakeScene, cutoff: float) -> None:
-    exact = furnace(make_scene, {"shape": "sphere"}, 1.5, **EXACT)
+@pytest.mark.usefixtures("each_form")
+def test_the_cutoff_takes_nothing_from_clear_glass(make_scene: MakeScene, cutoff: float) -> None:
+    """What is too weak to be followed goes the other way; it had been missing, up to .01 of what there is."""
     found = furnace(make_scene, {"shape": "sphere"}, 1.5, max_depth=64, cutoff=cutoff)
-    lost = exact - found
-    assert lost.min() > -1e-5
-    # A path inside has one ray at each hit, so it may be cut once, and each of the rays that it sends out once:
-    # inside, what goes on shrinks by F < 1/2 but near the rim, so two or three cuts of at most `cutoff` each.
-    assert np.median(lost) <= 3 * cutoff
-    assert lost.mean() <= 3 * cutoff
-    assert lost.max() > 0, "something was cut"
+    assert found.max() <= 1 + 1e-5
+    assert np.median(found) > 1 - 1e-6
+    # Near the rim the stronger way leads back into the ball, up to the last bounce.
+    assert abs(found.mean() - 1) < max(1e-4, cutoff / 50)
 
 
 def test_a_smooth_mirror_sends_no_ray_into_itself(make_scene: MakeScene) -> None:
