@@ -103,8 +103,8 @@ def lifts(
 
 def _warn(loaded: Loaded, number: int, other: str) -> None:
     warnings.warn(
-        f"{loaded.document.where(('lights', number))}: lights[{number}] lies in the plane of {other} and overlaps"
-        f" it: which one rays meet is left to rounding; move one of them by {10 * SAME:.0e} of the scene's size or more",
+        f"{loaded.document.where(('lights', number))}: lights[{number}] lies in the plane of {other} and overlaps it:"
+        f" which one rays meet is left to rounding; move one of them by {10 * SAME:.0e} of the scene's size or more",
         CourseWarning,
         stacklevel=2,
     )

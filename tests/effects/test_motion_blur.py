@@ -17,6 +17,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.errors import CourseWarning
 from tests.conftest import MakeScene
 
 Array = NDArray[np.float64]
@@ -381,6 +382,36 @@ def test_a_moving_camera_is_everything_else_moving_the_other_way(make_scene: Mak
 def test_what_moves_together_looks_still(make_scene: MakeScene) -> None:
     unit = {"open": 0, "close": 1}
     nearly_equal(rich(make_scene, V, V, V, unit), rich(make_scene, STILL, STILL, STILL, unit))
+
+
+@pytest.mark.parametrize("far", [1e2, 1e5, 1e7])
+def test_so_does_what_moves_together_by_many_of_its_sizes(
+    make_scene: MakeScene, far: float
+) -> None:
+    """Float32 has no digits for both. What stays behind is out of sight at once."""
+    velocity = {"motion": {"velocity": [far, 0.3 * far, 0]}}
+    lamp = {"type": "sphere", "center": [2, 2, 2], "radius": 0.3, "radiance": 3}
+    still, moved = (
+        render(
+            make_scene(
+                camera={"eye": [0, 0, 4], "look_at": [0, 0, 0]}
+                | {"shutter": {"open": 1, "close": 2}}
+                | motion,
+                objects=[{"shape": "sphere", "material": "grey"} | motion],
+                lights=[lamp | motion],
+            )
+        ).linear
+        for motion in (dict[str, Any](), velocity)
+    )
+    np.testing.assert_allclose(moved, still, atol=1e-4)
+    assert still.max() > 0.03
+
+
+def test_a_ball_that_flies_by_many_of_its_sizes_is_told(make_scene: MakeScene) -> None:
+    ball = {"shape": "sphere", "material": "grey", "motion": {"velocity": [1e5, 0, 0]}}
+    camera = {"eye": [0, 0, 4], "look_at": [0, 0, 0], "shutter": {"open": 0, "close": 1}}
+    with pytest.warns(CourseWarning, match=r"objects\[0\] \(sphere\) of a width of 2 is too"):
+        make_scene(camera=camera, objects=[ball])
 
 
 def test_a_shutter_that_opens_later_sees_things_where_they_are_by_then(
