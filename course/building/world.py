@@ -126,7 +126,8 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     for name, material in zip(columns.names, used.values(), strict=True):
         in_range(rgb(material.emission), loaded, ("materials", name, "emission"), "the emission")
         in_range(rgb(material.unlit), loaded, ("materials", name, "unlit"), "the radiance")
-    raised = lifts(loaded, frame, shutter, parts)
+    flat = any(isinstance(light, d.RectangleLight | d.ObjectLight) for light in scene.lights)
+    raised = lifts(loaded, frame, shutter, parts) if flat else {}
     emitters, emission = emitter_parts(loaded, frame, shutter, len(used), raised)
     materials = compile_materials(used, emission, frame)
     around = outsides(columns.names, scene.materials, len(materials.exponent))
