@@ -50,7 +50,14 @@ class _Thing:
         if (self.box[1] < low).any() or (self.box[0] > high).any():
             return np.empty((0, 3, 3))
         p: Floats64 = self.mesh.vertices[self.mesh.triangles]
-        some: Floats64 = p[((p.max(axis=1) >= low) & (p.min(axis=1) <= high)).all(axis=1)]
+        p = p[((p.max(axis=1) >= low) & (p.min(axis=1) <= high)).all(axis=1)]
+        sides = p - np.roll(p, 1, axis=1)
+        # What is smaller than rounding, or has no area, meets nothing.
+        across = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+        least = SAME * np.maximum(
+            np.abs(p).max(axis=(1, 2), initial=0), np.abs(sides).max(axis=(1, 2), initial=0)
+        )
+        some: Floats64 = p[across > least * least]
         return some
 
 

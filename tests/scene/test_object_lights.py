@@ -63,7 +63,8 @@ def test_the_object_has_a_copy_of_its_material(make_scene: MakeScene) -> None:
     """Others of the same material are no lights; where there are none, it has the only copy."""
     alone = scene(make_scene).compiled.world
     assert alone.materials.emission.shape[1] == 2
-    shared = scene(make_scene, objects=[LAMP, FLOOR, LAMP | {"name": "other"}]).compiled.world
+    other = LAMP | {"name": "other", "transform": [{"translate": [0, 9, 0]}]}
+    shared = scene(make_scene, objects=[LAMP, FLOOR, other]).compiled.world
     assert shared.materials.emission.T.tolist() == [[0, 0, 0], [1, 2, 3], [1, 2, 3]]
     # Twelve triangles of the lamp, two of the floor, twelve of the other.
     assert shared.surface.triangles.material.tolist() == [2] * 12 + [0] * 2 + [1] * 12
@@ -83,7 +84,7 @@ def test_it_is_skipped_where_nothing_shows_its_light(make_scene: MakeScene) -> N
 
 def test_triangles_without_area_are_left_out(make_scene: MakeScene) -> None:
     """A flattened box has two sides left of six, which lie in one place and shine from it once."""
-    flat = LAMP | {"transform": [{"scale": [1, 1e-60, 1]}]}
+    flat = LAMP | {"transform": [{"scale": [1, 1e-60, 1]}, {"translate": [0, 1, 0]}]}
     with pytest.warns(CourseWarning, match="2 of 4 triangles"):
         world = scene(make_scene, objects=[FLOOR, flat]).compiled.world
     (light,) = world.lights
