@@ -89,6 +89,10 @@ def draw(film: AdaptiveFilm, number: int, share: float) -> Sample | None:
     samples = np.minimum(have, LONGEST)
     best = np.sqrt((variance**2 + (QUIET * mean) ** 2) / samples)
     chance = (1 - EVENLY) / best.sum() * best + EVENLY / len(have)
+    if len(film.foreseen):
+        # A second picture of a pixel that finds a thing once in a thousand samples would tell nothing.
+        chance[film.foreseen] = 0
+        chance /= chance.sum()
     each = float((chance * samples).sum())
     count = int(min(PIXELS, share * float(have.sum(dtype=np.int64)) / each))
     if count < FEWEST:
@@ -103,7 +107,7 @@ def draw(film: AdaptiveFilm, number: int, share: float) -> Sample | None:
 def _pooled(film: AdaptiveFilm) -> Floats64:
     """Variances (P,), half of each from the pixels around it as if they had as many samples."""
     n = film.samples.astype(np.float32)
-    own = film.variance * n
+    own = film.unforeseen * n
     sums = own
     for _ in range(2):
         # Along one axis, and after turning along the other; those at the edge count for what lies beyond.
@@ -137,7 +141,7 @@ def judge(film: AdaptiveFilm, sample: Sample) -> None:
 
     The audit and what was told before it are two opinions, whose logarithms are averaged by their certainty.
     """
-    told = film.told
+    told = film.told_by_samples
     apart, of_second = film.twins_apart(sample.pixels)
     # B may have fewer samples than A, and a larger variance then.
     a = film.samples.reshape(-1)[sample.pixels] / sample.samples

@@ -33,15 +33,15 @@ class CompiledFilm(AdaptiveFilm):
             ),
         )
 
-    def _smoothed(self, order: float) -> tuple[Floats32, Floats32]:
-        shape = self.variance.shape
+    def _smoothed(self, order: float, variance: Floats32) -> tuple[Floats32, Floats32]:
+        shape = variance.shape
         weights, (total, own) = np.empty((4, *shape), np.float32), np.empty((2, *shape), np.float32)
-        variance, cost = np.empty((2, *shape), np.float32)
-        film_kernels.likeness(self.linear, self.variance, total, weights)
+        mixed, cost = np.empty((2, *shape), np.float32)
+        film_kernels.likeness(self.linear, variance, total, weights)
         np.exp(weights, out=weights)
         film_kernels.weigh(weights, total)
         scale = self.samples.astype(np.float32) ** np.float32(2 * order)
-        film_kernels.smooth(self.variance, scale, self.samples, weights, total, own, variance)
+        film_kernels.smooth(variance, scale, self.samples, weights, total, own, mixed)
         scale[:] = 1
         film_kernels.smooth(self.cost, scale, self.samples, weights, total, own, cost)
-        return variance, cost
+        return mixed, cost

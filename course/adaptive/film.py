@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from course.adaptive.pixel_groups import TwinGroup
+from course.adaptive.prior import Prior
 from course.adaptive.smoothing import Guide, smoothed
 from course.adaptive.variance import INDEPENDENT, measured_order, variance_share
 from course.core.tiles import Area
@@ -31,12 +32,16 @@ class AdaptiveFilm:
     ----------
     width, height : pixels
     net : samples are points of a net, whose order of convergence is measured; that of independent ones is known
+    prior : what is known of some pixels before they have samples; None where there is nothing to be known
     """
 
-    def __init__(self, width: int, height: int, net: bool = True) -> None:
+    def __init__(
+        self, width: int, height: int, net: bool = True, prior: Prior | None = None
+    ) -> None:
         self.width = width
         self.height = height
         self._net = net
+        self._prior = prior
         pixels = width * height
         self.linear = np.zeros((3, height, width), np.float32)
         """(3, H, W) linear radiance, valid where samples have been added."""
@@ -143,12 +148,62 @@ class AdaptiveFilm:
 
         Where rare light was found, pixels next to it have found nothing yet, and have more of the error than they tell.
         """
-        return self._spread * float(self.variance.mean(dtype=np.float64))
+        believed = self.believed
+        return self._surplus(believed) * self._spread * float(believed.mean(dtype=np.float64))
+
+    @property
+    def surplus(self) -> float:
+        """What is told over the mean variance, 1 or more: some for chance, where few pixels have all of the error.
+
+        The squared error of so few is often several times what is expected. If k pixels that have a prior have all of
+        it, 1 + 2 / k: with one, the error is more than twice what is told once in 2000 times, and without it in 20.
+        """
+        return self._surplus(self.believed)
+
+    def _surplus(self, believed: Floats32) -> float:
+        few = believed.reshape(-1)[self.foreseen].astype(np.float64)
+        whole = float(believed.sum(dtype=np.float64))
+        return 1 + 2 * float((few * few).sum()) / whole**2 if len(few) and whole else 1.0
+
+    @property
+    def told_by_samples(self) -> float:
+        """As ``told``, without the pixels that have a prior."""
+        return self._spread * float(self.unforeseen.mean(dtype=np.float64))
+
+    @property
+    def believed(self) -> Floats32:
+        """(H, W) variance of each pixel, by what is known before it has samples, too.
+
+        The prior's are divided by what others are multiplied with: audits judge those alone.
+        """
+        if self._prior is None:
+            return self.variance
+        result = self.variance.copy()
+        known = self._prior.believed(self.variance, self.samples)
+        result.reshape(-1)[self._prior.pixels] = known / (self.correction * self._spread)
+        return result
+
+    @property
+    def foreseen(self) -> Indices:
+        """(m,) the pixels that have a prior."""
+        return np.empty(0, np.intp) if self._prior is None else self._prior.pixels
+
+    @property
+    def unforeseen(self) -> Floats32:
+        """(H, W) estimated variance of the pixels that have no prior, 0 of the others."""
+        if not len(self.foreseen):
+            return self.variance
+        result = self.variance.copy()
+        result.reshape(-1)[self.foreseen] = 0
+        return result
 
     @property
     def concentrated(self) -> float:
-        """How many pixels have the error, effectively: sum(v)^2 / sum(v^2), and all of them where there is none."""
-        v = self.variance.astype(np.float64)
+        """How many pixels have the error, effectively: sum(v)^2 / sum(v^2), and all of them where there is none.
+
+        Pixels that have a prior don't count: it is known where they are.
+        """
+        v = self.unforeseen.astype(np.float64)
         squares = float((v * v).sum())
         return float(v.sum()) ** 2 / squares if squares else float(v.size)
 
@@ -158,7 +213,7 @@ class AdaptiveFilm:
         if self.error == 0:
             return float(self.samples.max(initial=0))
         exponent = 2 * self.order
-        unit = self.variance * self.samples.astype(np.float64) ** exponent
+        unit = self.believed * self.samples.astype(np.float64) ** exponent
         return float((self.correction * unit.mean() / self.error**2) ** (1 / exponent))
 
     def end_round(self) -> tuple[Floats32, Floats32]:
@@ -187,14 +242,27 @@ class AdaptiveFilm:
             self.variance *= np.float32(r * r / (4 * (1 - r)) / (0.0625 + 0.125 * r))
             self._begun = True
         self.order = order
-        variance, cost = self._smoothed(order)
-        own = float(self.variance.sum(dtype=np.float64))
+        variance, cost = self._smoothed(order, self._without_finds())
+        variance.reshape(-1)[self.foreseen] = 0
+        own = float(self.unforeseen.sum(dtype=np.float64))
         self._spread = float(variance.sum(dtype=np.float64)) / own if own else 1.0
+        if self._prior is not None:
+            known = self._prior.believed(self.variance, self.samples)
+            variance.reshape(-1)[self.foreseen] = known / self.correction
         return variance, cost
 
-    def _smoothed(self, order: float) -> tuple[Floats32, Floats32]:
-        guide = Guide(self.linear, self.variance)
-        variance = smoothed(self.variance, self.samples, order, guide)
+    def _without_finds(self) -> Floats32:
+        """(H, W) variances of pixels as if none had found what it has a prior for: those around learn nothing of it."""
+        if self._prior is None:
+            return self.variance
+        result = self.variance.copy()
+        result.reshape(-1)[self.foreseen] = self._prior.others(self.variance, self.samples)
+        return result
+
+    def _smoothed(self, order: float, variance: Floats32) -> tuple[Floats32, Floats32]:
+        """Variances and costs (H, W) that learn from their neighbours."""
+        guide = Guide(self.linear, variance)
+        variance = smoothed(variance, self.samples, order, guide)
         return variance, smoothed(self.cost, self.samples, 0, guide)
 
 

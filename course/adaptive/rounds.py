@@ -184,7 +184,7 @@ class _Rounds:
 
     def _aim(self) -> float:
         """Mean variance that a round aims at, before what audits correct."""
-        return (SAFETY * self._error) ** 2 / self._film.correction
+        return (SAFETY * self._error) ** 2 / (self._film.correction * self._film.surplus)
 
     def _best(self) -> Floats32:
         """How many samples (P,) each pixel should have in the end."""
@@ -195,7 +195,7 @@ class _Rounds:
         have, film = self._have, self._film
         wanted = next_rung(have, best)
         if (wanted == have).all():
-            excess = (film.told - self._aim()) * len(have)
+            excess = (film.told / film.surplus - self._aim()) * len(have)
             wanted = one_rung_more(have, self._variance, self._cost, film.order, excess)
         return _within(wanted, have, best, self._budget - film.audited)
 
@@ -231,8 +231,9 @@ def _part(
     gain = (begun - now) / max(taken, 1)
     if not taken:
         # Of each pixel, as a part of what all have.
-        gains = film.variance.reshape(-1)[left] * (1 - (have / wanted[left]) ** 2)
-        gain = now * float(gains.mean(dtype=np.float64) / film.variance.sum(dtype=np.float64))
+        variance = film.believed.reshape(-1)
+        gains = variance[left] * (1 - (have / wanted[left]) ** 2)
+        gain = now * float(gains.mean(dtype=np.float64) / variance.sum(dtype=np.float64))
     excess = now - error**2 / film.correction
     if excess >= gain * len(left):
         return len(left)

@@ -5,6 +5,7 @@ from typing import Any
 
 from course.adaptive.allocation import FIRST, FIRST_OF_NET
 from course.adaptive.film import AdaptiveFilm
+from course.adaptive.foresight import Foresight, foresee
 from course.adaptive.rounds import ADAPTABLE, Groups, render_adaptively
 from course.core.schedule import Executor, Run, Schedule
 from course.core.tracer import Tracer
@@ -23,12 +24,16 @@ class AdaptiveSchedule(Schedule):
     Parameters
     ----------
     target : root-mean-square error of the whole picture [radiance]
+    foresight : what the scene has told before any sample
     """
 
-    def __init__(self, film: AdaptiveFilm, tracer: Tracer, target: float) -> None:
+    def __init__(
+        self, film: AdaptiveFilm, tracer: Tracer, target: float, foresight: Foresight
+    ) -> None:
         self._film = film
         self._tracer = tracer
         self._target = target
+        self._foresight = foresight
 
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``; under a deadline a preview comes first, so that every pixel has something."""
@@ -55,10 +60,18 @@ class AdaptiveSchedule(Schedule):
                 "fewest": int(film.samples.min()),
                 "most": int(film.samples.max()),
                 "audited": film.audited,
+                "foreseen": self._foresight.rays,
                 "uniform": uniform,
                 "saved": 1.0 - spent / uniform if uniform else 0.0,
             }
+            | ({"not bounded": list(told)} if (told := self._foresight.unbounded) else {})
         }
+
+    @property
+    def note(self) -> str:
+        """See ``Schedule``."""
+        told = self._foresight.unbounded
+        return f"not bounded: {'; '.join(told)}" if told else ""
 
 
 def first_samples(sampler: str) -> int:
@@ -95,8 +108,9 @@ def make(job: Job, tracer: Tracer, _bound: Bound) -> tuple[AdaptiveFilm, Adaptiv
         from course.adaptive.compiled_film import CompiledFilm
 
         kind = CompiledFilm
-    film = kind(settings.width, settings.height, settings.sampler == NET)
-    return film, AdaptiveSchedule(film, tracer, job.settings.error)
+    foresight = foresee(job, job.settings.error)
+    film = kind(settings.width, settings.height, settings.sampler == NET, foresight.prior)
+    return film, AdaptiveSchedule(film, tracer, job.settings.error, foresight)
 
 
 ADAPTIVE = Mode(make, check, final="a picture with an error to aim at")

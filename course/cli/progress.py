@@ -30,7 +30,7 @@ def progress_bar(label: str) -> Iterator[Report | None]:
         return
     bar = _Bar(label)
     try:
-        yield bar.report
+        yield bar
     finally:
         bar.close()
 
@@ -49,12 +49,20 @@ class _Bar:
         self._timer.daemon = True
         self._timer.start()
 
-    def report(self, done: float, _available: bool) -> None:
+    def __call__(self, done: float, _available: bool) -> None:
         with self._lock:
             self._done = done
             if self._shown is not None:
                 progress, task = self._shown
                 progress.update(task, completed=done, total=1.0)
+
+    def note(self, text: str) -> None:
+        """Say something next to the label."""
+        with self._lock:
+            self._label += f" ({text})"
+            if self._shown is not None:
+                progress, task = self._shown
+                progress.update(task, description=self._label)
 
     def close(self) -> None:
         self._timer.cancel()

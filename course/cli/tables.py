@@ -167,6 +167,7 @@ def _samples(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [
         ("a pixel", f"{mean:.1f} on average, {error['fewest']:,} to {error['most']:,}"),
         ("estimated error", f"{estimated:.3g}{missed}"),
+        *(("not bounded", cause) for cause in error.get("not bounded", ())),
         ("saved", f"{error['saved']:.0%} of {error['uniform']:.1f} in every pixel alike"),
     ]
 

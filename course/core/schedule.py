@@ -71,12 +71,23 @@ class Schedule(ABC):
         """Entries that the schedule adds to the receipt."""
         return {}
 
+    @property
+    def note(self) -> str:
+        """What is to be said of the picture while it is rendered; mostly nothing."""
+        return ""
+
 
 def render(
     film: AnyFilm, schedule: Schedule, executor: Executor, progress: Progress | None = None
 ) -> bool:
-    """Render a picture into a film; return true if it is complete. ``progress`` is called from this thread."""
+    """Render a picture into a film; return true if it is complete. ``progress`` is called from this thread.
+
+    If ``progress`` has a method ``note``, it is told what the schedule has to say.
+    """
     covered = False
+    note = getattr(progress, "note", None)
+    if note is not None and schedule.note:
+        note(schedule.note)
 
     def run(work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         nonlocal covered

@@ -24,8 +24,9 @@ class Receipt:
     threads : that rendered
     samples : a pixel; the mean where pixels differ
     error : where one was aimed at: "target", "estimated" [radiance], the "fewest" and "most" samples of a pixel,
-        "uniform" how many samples in every pixel would have brought the same, and "saved" the part of them that
-        was not needed; else None
+        "uniform" how many samples in every pixel would have brought the same, "saved" the part of them that was not
+        needed, "audited" the samples and "foreseen" the rays that told of the error and aren't in the picture, and
+        "not bounded" what the estimate doesn't bound, where there is any; else None
     pixels : of the picture
     seed, version : what to repeat it with
     subdivision : where pixels are divided by contrast: "corners" that got rays, corners of cells that were "shared",
@@ -47,7 +48,7 @@ class Receipt:
     pixels: int
     seed: int
     version: str
-    error: dict[str, float] | None = None
+    error: dict[str, Any] | None = None
     subdivision: dict[str, float] | None = None
     tests: dict[str, int] | None = None
     denoising: dict[str, float] | None = None

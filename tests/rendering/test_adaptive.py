@@ -562,6 +562,7 @@ def test_a_black_picture_is_done_after_the_first_round(make_scene: MakeScene) ->
         "target": 1e-12,
         "estimated": 0.0,
         "audited": 0,
+        "foreseen": 0,
         "fewest": FIRST_OF_NET,
         "most": FIRST_OF_NET,
         "uniform": FIRST_OF_NET,
