@@ -69,3 +69,13 @@ def test_short_work_shows_no_bar(
         assert report is not None
         report(1.0, True)
     assert capsys.readouterr() == ("", "")
+
+
+def test_a_note_stands_beside_the_label(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    terminal = _terminal(monkeypatch)
+    with progress.progress_bar("box") as report:
+        assert isinstance(report, progress._Bar)
+        report.note("not bounded: caustics")
+        report(0.5, False)
+        terminal.wait_for("box (not bounded: caustics)")

@@ -195,6 +195,19 @@ def test_a_lamp_in_rough_metal(make_scene: MakeScene) -> None:
     check(scene, truth, 1.5)
 
 
+class Noted:
+    """A progress that is told something."""
+
+    def __init__(self) -> None:
+        self.notes = list[str]()
+
+    def __call__(self, done: float, available: bool) -> None:
+        """Nobody looks."""
+
+    def note(self, text: str) -> None:
+        self.notes.append(text)
+
+
 def test_a_caustic_is_told_by_name(make_scene: MakeScene) -> None:
     """Two pictures A and B of other seeds: the mean of (A - B)^2 is twice the squared error, to a third here."""
     scene = scene_of(
@@ -213,12 +226,15 @@ def test_a_caustic_is_told_by_name(make_scene: MakeScene) -> None:
         ],
         lights=[{"type": "sphere", "center": [-1.5, 2.4, 0.3], "radius": 0.12, "radiance": 120}],
     )
+    told_to = Noted()
     pictures = [
-        render(scene, error=0.15, spp=1024, seed=seed, sampler="sobol") for seed in range(4)
+        render(scene, error=0.15, spp=1024, seed=seed, sampler="sobol", progress=told_to)
+        for seed in range(4)
     ]
     for picture in pictures:
         (first, *_) = told_by(picture)["not bounded"]
         assert first == "caustics, light of light 0 by way of glass ball"
+        assert told_to.notes[0].startswith(f"not bounded: {first}")
         assert any(
             row == ("not bounded", first)
             for _, rows in receipt_sections(picture.receipt.to_dict())
