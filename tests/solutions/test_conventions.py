@@ -25,8 +25,8 @@ CHECKS = [
     if check.kind not in ("picture", "bias", "speed")
 ]
 
-SEEDS = (101, 102)
-"""FALSE_FAIL of each comparison is stated with each check: together under 1e-4."""
+SEEDS = (101,)
+"""FALSE_FAIL of each comparison is stated with each check: together under 1e-4. `make mutants` has further seeds."""
 
 
 def arrays(a: Arguments) -> list[Array]:
