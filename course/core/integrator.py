@@ -127,16 +127,26 @@ class Integrator:
         of them here; in path tracing, those whose last hit hasn't sampled the environment directly.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
+        watcher = draws.watcher
+        if watcher is not None:
+            rays = watcher.begins(rays, depth)
         found = surface.intersect(rays, counters.embree, of_camera)
         counters.lap("trace")
         if depth <= self.environment_depth and adds_lights is not False:
-            self._add_environment(path_radiance, rays, (found.triangle < 0) & adds_lights)
+            missed = (found.triangle < 0) & adds_lights
+            if watcher is not None:
+                watcher.missed(rays, missed)
+            self._add_environment(path_radiance, rays, missed)
+        if watcher is not None:
+            watcher.found(rays, found.triangle >= 0)
         hits = surface.hits(found, rays.direction, rays.time, of_camera)
         throughput, path, medium = _carried(rays, hits.ray)
         if draws.costs is not None:
             draws.costs.add("hit", path)
         if self.absorption is not None:
             throughput = self.absorption(rays, hits, throughput, medium, of_camera)
+        if watcher is not None and path is not None:
+            watcher.met(path, hits, throughput)
         counters.lap("hits")
         return hits, throughput, path, medium
 

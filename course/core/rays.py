@@ -9,6 +9,7 @@ import numpy as np
 from course.core.counters import Counters
 from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Media
+from course.core.watching import Watcher
 
 RAYS = 65536
 """Maximum number of camera rays in a batch.
@@ -110,7 +111,7 @@ class Draws:
     """Draws random numbers for the paths of a block on demand; counts the numbers, and the rays of the paths.
 
     ``cancelled`` returns true if the render has been cancelled; ``costs`` are the paths' costs
-    (``course.adaptive.costs``), None without adaptive sampling.
+    (``course.adaptive.costs``), None without adaptive sampling; ``watcher`` listens, None if nobody does.
     """
 
     sampler: Sampler
@@ -119,6 +120,7 @@ class Draws:
     counters: Counters
     cancelled: Callable[[], bool] = lambda: False
     costs: Any = None
+    watcher: Watcher | None = None
 
     def __call__(
         self,

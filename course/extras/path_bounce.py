@@ -63,6 +63,8 @@ class PathBounce:
         medium : (n,) the material that the arriving ray travelled in, or None where nothing absorbs
         inside : the hits that are on the inside of a dielectric that is dark there
         """
+        if draws.watcher is not None:
+            draws.watcher.bounces(None)
         after = self._scattered(hits, beta, inside)
         other, boundary, kind = None, None, None
         survival = self.roulette is not None and depth >= self.roulette
@@ -211,6 +213,8 @@ class PathBounce:
     ) -> Floats32:
         """Directions in which paths leave some of the hits, or all of them."""
         assert self.path_tracing is not None
+        if draws.watcher is not None:
+            draws.watcher.bounces(path)
         u = draws("bounce", path, depth)
         ns, ng = hits.ns, hits.ng
         if which is not None:

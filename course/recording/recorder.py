@@ -5,6 +5,7 @@ whatever is drawn, cast or added says which ray it belongs to.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -66,7 +67,7 @@ class Recorder:
 
     def __init__(self) -> None:
         self.rays, self.hits, self.brought = Table(), Table(), Table()
-        self.shadows, self.unlit, self.bounces = Table(), Table(), Table()
+        self.shadows, self.unlit, self.left_diffuse = Table(), Table(), Table()
         self.drawn, self.calls = Table(), Table()
         self.path: Indices = np.zeros(0, np.intp)
         self.ids: Indices = self.path
@@ -99,8 +100,8 @@ class Recorder:
         """Which of some rays (n,) are recorded, as indices (m,)."""
         return np.flatnonzero(self._wanted.take(self.path.take(ids)))
 
-    def begin(self, rays: Rays, depth: int) -> Indices:
-        """Number the rays of a batch at a depth."""
+    def begins(self, rays: Rays, depth: int) -> Rays:
+        """See ``Watcher``: number the rays of a batch at a depth."""
         # Camera rays have had their numbers since the block began.
         before = self.ids if rays.path is None else rays.path
         ids = before if depth == 0 else self._number(self.path.take(before))
@@ -119,11 +120,27 @@ class Recorder:
         if depth > 0:
             self._known.clear()
         self.ids, self.stage = ids, "surface"
-        return ids
+        return replace(rays, path=ids)
 
-    def met(self, ids: Indices, hits: Hits, throughput: Floats32 | None) -> None:
-        """The hits of rays ``ids`` (n,), with their throughput there."""
-        self.ids = ids
+    def missed(self, rays: Rays, which: Mask) -> None:
+        """See ``Watcher``."""
+        assert rays.path is not None
+        self.ids, self.stage = rays.path.compress(which), "environment"
+
+    def found(self, rays: Rays, met: Mask) -> None:
+        """See ``Watcher``."""
+        assert rays.path is not None
+        self.ids, self.stage = rays.path.compress(met), "surface"
+
+    def bounces(self, path: Indices | None) -> None:
+        """See ``Watcher``."""
+        self.stage = "bounce"
+        if path is not None:
+            self.left_diffuse.add(self.kept(path), id=path)
+
+    def met(self, path: Indices, hits: Hits, throughput: Floats32 | None) -> None:
+        """See ``Watcher``."""
+        ids = self.ids = path
         arriving = np.ones((3, 1), np.float32) if throughput is None else throughput
         self.hits.add(
             self.kept(ids),

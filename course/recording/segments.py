@@ -155,7 +155,7 @@ class _Reading:
         self._frame, self._world = scene.compiled.frame, scene.compiled.world
         self._triangle_materials = scene.compiled.world.surface.triangles.material
         self._hits = {int(row["id"]): row for row in recorder.hits.rows()}
-        self._bounced = {int(row["id"]) for row in recorder.bounces.rows()}
+        self._bounced = {int(row["id"]) for row in recorder.left_diffuse.rows()}
         self._brought: dict[int, Floats64] = defaultdict(lambda: np.zeros(3))
         for row in recorder.brought.rows():
             self._brought[int(row["id"])] += row["value"]

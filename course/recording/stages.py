@@ -7,20 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from course.core.accelerator import Intersections, QueryStats
+from course.core.accelerator import QueryStats
 from course.core.direct import Candidates, DirectLight
-from course.core.hits import Hits, Surface
+from course.core.hits import Hits
 from course.core.integrator import Integrator
 from course.core.lights.sample import Light, Sample
-from course.core.rays import Draws, Rays
+from course.core.rays import Draws
 from course.core.scatter import Boundary, Scatter
 from course.core.tracer import Tracer
-from course.core.types import Floats32, Indices, Mask, Media, Numbers
+from course.core.types import Floats32, Indices, Mask, Numbers
 from course.core.vectors import dot
 from course.effects import Effects
 from course.extras.light_tree import TreeChoice
 from course.extras.painting import ColorAt, Painting
-from course.extras.path_bounce import PathBounce
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import same_fields
 from course.extras.sky import Sky
@@ -142,12 +141,11 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
     if integrator.scatter is not None:
         changed["scatter"] = _as(RecordedScatter, integrator.scatter, recorder)
     if isinstance(integrator, PathIntegrator):
-        known = {"scatter": changed.get("scatter")}
-        changed["bounce"] = _as(RecordedBounce, integrator.bounce, recorder, **known)
-    surface = integrator.surface
+        changed["bounce"] = replace(integrator.bounce, scatter=changed.get("scatter"))
+    surface: Any = integrator.surface
     if (painting := getattr(surface, "painting", None)) is not None:
         noted = _as(RecordedPainting, painting, recorder)
-        changed["surface"] = _as(RecordedSurface, surface, recorder, painting=noted)
+        changed["surface"] = replace(surface, painting=noted)
     return replace(tracer, integrator=_as(RecordedIntegrator, integrator, recorder, **changed))
 
 
@@ -162,29 +160,6 @@ class RecordedIntegrator(Integrator):
 
     recorder: Recorder
 
-    def _intersect(
-        self,
-        rays: Rays,
-        adds_lights: Mask | bool,
-        depth: int,
-        path_radiance: Floats32,
-        draws: Draws,
-    ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
-        ids = self.recorder.begin(rays, depth)
-        rays = replace(rays, path=ids)
-        hits, throughput, path, medium = super()._intersect(
-            rays, adds_lights, depth, path_radiance, draws
-        )
-        assert path is not None
-        self.recorder.met(path, hits, throughput)
-        return hits, throughput, path, medium
-
-    def _add_environment(self, path_radiance: Floats32, rays: Rays, missed: Mask) -> None:
-        assert rays.path is not None
-        self.recorder.ids, self.recorder.stage = rays.path.compress(missed), "environment"
-        super()._add_environment(path_radiance, rays, missed)
-        self.recorder.ids, self.recorder.stage = rays.path, "surface"
-
     def add_radiance(
         self,
         path_radiance: Floats32,
@@ -196,18 +171,6 @@ class RecordedIntegrator(Integrator):
         assert path is not None
         self.recorder.add(path, radiance, throughput)
         super().add_radiance(path_radiance, self.recorder.path.take(path), radiance, throughput)
-
-
-class RecordedSurface(Surface):
-    """Tells which rays the hits belong to, before anything is asked about them."""
-
-    recorder: Recorder
-
-    def _find(self, found: Intersections, direction: Floats32) -> Hits:
-        hits = super()._find(found, direction)
-        if hits.ray is not None:
-            self.recorder.ids = self.recorder.ids.take(hits.ray)
-        return hits
 
 
 class RecordedPainting(Painting):
@@ -418,21 +381,3 @@ class RecordedScatter(Scatter):
         """See ``Scatter``."""
         self.recorder.ids, self.recorder.stage = path, "refracted"
         return super().refracted(hits, which, boundary, path, depth, draws)
-
-
-class RecordedBounce(PathBounce):
-    """Tells which paths go on from a diffuse surface."""
-
-    recorder: Recorder
-
-    def _scattered(self, hits: Hits, beta: Floats32 | None, inside: Indices) -> Floats32:
-        self.recorder.stage = "bounce"
-        return super()._scattered(hits, beta, inside)
-
-    def _diffuse(
-        self, hits: Hits, which: Indices | None, path: Indices, depth: int, draws: Draws
-    ) -> Floats32:
-        recorder = self.recorder
-        recorder.stage = "bounce"
-        recorder.bounces.add(recorder.kept(path), id=path)
-        return super()._diffuse(hits, which, path, depth, draws)
