@@ -5,7 +5,6 @@ from dataclasses import replace
 from course.compiled.fits import fits
 from course.compiled.light_tree import compiled_choice
 from course.core.tracer import Tracer
-from course.extras.direct import FullDirectLight
 from course.extras.light_choice import LightChoice
 
 
@@ -26,11 +25,12 @@ def compiled(tracer: Tracer) -> Tracer:
     if choice is None:
         return tracer
     integrator = tracer.integrator
-    assert isinstance(integrator.direct, FullDirectLight)
+    assert integrator.direct is not None
     direct = replace(integrator.direct, choice=compiled_choice(choice))
     return replace(tracer, integrator=replace(integrator, direct=direct))
 
 
 def _choice(tracer: Tracer) -> LightChoice | None:
     direct = tracer.integrator.direct
-    return direct.choice if isinstance(direct, FullDirectLight) else None
+    choice = None if direct is None else direct.choice
+    return choice if isinstance(choice, LightChoice) else None

@@ -21,12 +21,12 @@ from course.core.lights.point import DirectionalLight, PointLight
 from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sphere import SphereLight
 from course.core.motion import Motion, Mover, MovingAccelerator
+from course.core.reflection import BlinnPhong
 from course.core.samplers import Sampler
 from course.core.scatter import Scatter
 from course.core.tracer import Tracer
 from course.core.types import Functions
 from course.extras.absorption import Absorption
-from course.extras.direct import FullDirectLight
 from course.extras.environment_sampling import ProductSampling
 from course.extras.mesh_light import MeshLight
 from course.extras.near_plane import NearPlaneCamera
@@ -87,7 +87,6 @@ def _owned(functions: Functions | None, *names: str) -> bool:
 
 _INTEGRATOR = "surface camera motion environment direct absorption scatter"
 _SHOWN = "environment_depth ambient dark_inside glow emission max_depth"
-_DIRECT, _ROWS = "lights motion sky", "surface shaded diffuse specular exponent"
 _SCATTER = "surface mirror index absorbs outside cutoff"
 _CAMERA = "origin right up forward corner step_x step_y lens"
 _LIGHT = "name color width velocity"
@@ -128,8 +127,8 @@ KNOWN: dict[type, Known] = {
         "faces cube_map seamless",
         also=lambda e: _owned(e.cube_map, "lookup_seamless" if e.seamless else "lookup"),
     ),
-    DirectLight: Known(_DIRECT, _ROWS),
-    FullDirectLight: Known(_DIRECT, _ROWS, "highlights choice"),
+    DirectLight: Known("lights motion sky reflection", "surface shaded", "choice weigh"),
+    BlinnPhong: Known("", "diffuse specular exponent"),
     Sky: Known("environment sampling", "surface diffuses refracts"),
     ProductSampling: Known("", "rows columns texel_rows texel_columns"),
     DirectionalLight: Known("", f"{_LIGHT} to_light limit"),

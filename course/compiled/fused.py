@@ -33,6 +33,7 @@ from course.core.lights.sample import Light
 from course.core.lights.sphere import SphereLight
 from course.core.materials import Lookup
 from course.core.rays import Dimensions, Draws
+from course.core.reflection import BlinnPhong
 from course.core.samplers import Block
 from course.core.tiles import Area
 from course.core.tracer import Tracer
@@ -281,7 +282,9 @@ def _glows(glow: Glow | None) -> Floats32:
 def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
     direct, absorption = integrator.direct, integrator.absorption
     materials = 1 + int(integrator.surface.triangles.material.max(initial=0))
-    specular = None if direct is None else direct.specular
+    reflection = None if direct is None else direct.reflection
+    assert isinstance(reflection, BlinnPhong | None)
+    specular = None if reflection is None else reflection.specular
     shaded = None if direct is None else direct.shaded
     dark = integrator.dark_inside
     glow, emission, objects = _rows(integrator.glow), _rows(integrator.emission), _NO_COLUMNS
@@ -290,9 +293,9 @@ def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
             _glows(each) for each in (integrator.unsought, integrator.lamps, integrator.objects)
         )
     return fused_kernels.Reflectances(
-        np.zeros((3, materials), np.float32) if direct is None else direct.diffuse.rows,
+        np.zeros((3, materials), np.float32) if reflection is None else reflection.diffuse.rows,
         _rows(specular),
-        _NONE if direct is None or specular is None else direct.exponent.rows,
+        _NONE if reflection is None or specular is None else reflection.exponent.rows,
         _NO_MASK if shaded is None else shaded,
         _rows(integrator.ambient),
         np.empty(0, np.bool_) if dark is None else dark,

@@ -436,7 +436,7 @@ def _absorb(materials, outside, eye, of_camera, call, s, whole):
 
 @njit(**LEAN)
 def _reflect(materials, s, whole):
-    """What the hits send to the viewer into ``DIFFUSE``; see ``DirectLight._reflected`` and ``Integrator._shade``."""
+    """What the hits send to the viewer into ``DIFFUSE``; see ``BlinnPhong.reflected`` and ``Integrator.shade``."""
     dark_sides, ambient = len(materials.dark_inside) > 0, materials.ambient.shape[1] > 0
     for i in range(WIDTH):
         dark = dark_sides and materials.dark_inside[np.uint64(whole[MATERIAL + i])]

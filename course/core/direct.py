@@ -1,15 +1,14 @@
-"""Direct light by next-event estimation: for each light one point on it, one shadow ray, and Blinn-Phong reflection."""
+"""Direct light by next-event estimation: for each light one point on it, and one shadow ray."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from course.core.hits import Hits, Surface
-from course.core.lights.sample import TO_THE_LIGHT, Light, Sample, towards
-from course.core.materials import Lookup, blinn_phong_highlight
+from course.core.lights.sample import TO_THE_LIGHT, Light, Sample
 from course.core.motion import Motion
 from course.core.ray_offset import bulge
 from course.core.rays import Draws
@@ -61,6 +60,36 @@ class Candidates:
         return column if self.columns is None else self.columns.take(column)
 
 
+Sums = tuple[Floats32 | None, Floats32 | None]
+"""What arrives at n hits from all lights, (3, n) each: of the diffuse term, and of highlights. None stands for 0."""
+
+
+class Reflection(Protocol):
+    """What surfaces reflect of the light that arrives."""
+
+    def add(self, sums: Sums, hits: Hits, candidates: Candidates, color: Floats32) -> Sums:
+        """The sums with what arrives from a light of this colour; the sums may be overwritten."""
+
+    def reflected(self, hits: Hits, sums: Sums) -> Floats32:
+        """Radiance (3, n) towards the viewer; the first of the sums is not None, and may be overwritten."""
+
+
+class LightChoice(Protocol):
+    """Chooses among lights, so that hits ask some of them only."""
+
+    def arriving(
+        self, ask: "Ask", hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> Sums:
+        """The sums of the hits, by what ``ask`` adds of the lights that are chosen."""
+
+
+Ask = Callable[[Light, Sums, Hits, Indices | None, int, Draws], Sums]
+"""``DirectLight.from_light``."""
+
+Weigh = Callable[[Hits, Candidates], Candidates | None]
+"""Weighs the light of candidates, and leaves out those that need no shadow ray."""
+
+
 @dataclass(frozen=True)
 class DirectLight:
     """Direct light reflected at hits.
@@ -68,52 +97,70 @@ class DirectLight:
     Attributes
     ----------
     shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light on both sides
-    diffuse : (3, M) reflectance
-    specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
     sky : function that returns the environment's irradiance / pi, (3, n) or None for 0; None if it isn't sampled
+    choice : None if all hits ask all lights
+    weigh : None if light counts in full
     """
 
     surface: Surface
     lights: tuple[Light, ...]
     motion: Motion | None
     shaded: Mask | None
-    diffuse: Lookup
-    specular: Lookup | None
-    exponent: Lookup
+    reflection: Reflection
     sky: Callable[[Hits, Indices | None, int, Draws], Floats32 | None] | None = None
+    choice: LightChoice | None = None
+    weigh: Weigh | None = None
 
     def __call__(
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
     ) -> Floats32 | None:
         """Radiance (3, n) that hits of paths (n,) reflect; None if no light faces any of them."""
-        diffuse, specular = self._from_lights(hits, path, depth, draws)
+        diffuse, specular = self.from_lights(hits, path, depth, draws)
         sky = None if self.sky is None else self.sky(hits, path, depth, draws)
         if sky is not None:
             diffuse = sky if diffuse is None else np.add(diffuse, sky, out=diffuse)
-        return None if diffuse is None else self._reflected(hits, diffuse, specular)
+        return None if diffuse is None else self.reflection.reflected(hits, (diffuse, specular))
 
-    def _from_lights(
-        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
-    ) -> tuple[Floats32 | None, Floats32 | None]:
-        """Sums (3, n) over all lights: E / pi, and (n . h)^exponent E / pi. None stands for 0."""
-        diffuse: Floats32 | None = None
-        specular: Floats32 | None = None
+    def from_lights(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Sums:
+        """What arrives from all lights."""
+        if self.choice is not None:
+            return self.choice.arriving(self.from_light, hits, path, depth, draws)
+        sums: Sums = None, None
         for light in self.lights:
-            # ---- one point on the light
-            u = draws(light.name, path, depth) if light.width else None
-            candidates = self._candidates(hits, self._sample(light, self._points(hits, light), u))
-            if candidates is None:
-                continue
-            # ---- one shadow ray
-            irradiance = candidates.irradiance
-            irradiance *= self._visible(light, hits, candidates, draws)
-            draws.cast("shadow", len(candidates.index), path, candidates.index)
-            # ---- Blinn-Phong
-            diffuse = self._accumulated(diffuse, hits, candidates, irradiance, light.color)
-            if self.specular is not None:
-                highlight = self._highlight(hits, candidates, irradiance)
-                specular = self._accumulated(specular, hits, candidates, highlight, light.color)
-        return diffuse, specular
+            sums = self.from_light(light, sums, hits, path, depth, draws)
+        return sums
+
+    def from_light(
+        self,
+        light: Light,
+        sums: Sums,
+        hits: Hits,
+        path: Indices | None,
+        depth: int,
+        draws: Draws,
+    ) -> Sums:
+        """The sums with what arrives from one light."""
+        watcher = draws.watcher
+        if watcher is not None:
+            watcher.asks(self, light, path)
+        # ---- one point on the light
+        u = draws(light.name, path, depth) if light.width else None
+        sample = light.sample(self._points(hits, light), u)
+        candidates = self._candidates(hits, sample)
+        if candidates is not None and self.weigh is not None:
+            candidates = self.weigh(hits, candidates)
+        if watcher is not None:
+            watcher.faced(self, hits, sample, candidates)
+        if candidates is None:
+            return sums
+        # ---- one shadow ray
+        free = self._visible(light, hits, candidates, draws)
+        np.multiply(candidates.irradiance, free, out=candidates.irradiance)
+        draws.cast("shadow", len(candidates.index), path, candidates.index)
+        if watcher is not None:
+            watcher.shadowed(self, light, hits, candidates, free)
+        # ---- what is reflected
+        return self.reflection.add(sums, hits, candidates, light.color)
 
     def _points(self, hits: Hits, light: Light) -> Floats32:
         """Shading points (3, n) for which the light is sampled: the hits, in a moving light's frame."""
@@ -124,9 +171,6 @@ class DirectLight:
         if light.velocity is None or self.motion is None or hits.time is None:
             return points
         return points - self.motion.moved(light.velocity, hits.time)
-
-    def _sample(self, light: Light, points: Floats32, u: Floats32 | None) -> Sample:
-        return light.sample(points, u, towards)
 
     def _candidates(self, hits: Hits, sample: Sample) -> Candidates | None:
         """The hits that cast a shadow ray; None if there are none."""
@@ -162,7 +206,7 @@ class DirectLight:
         stats, mask = draws.counters.embree, candidates.mask
         time = None if hits.time is None else candidates.of(hits.time)
         origin = candidates.origin
-        to_light = self._to_light(light, hits, candidates)
+        to_light = self.to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
         # Let a be the angle between a facet's normal and its shading normal. If the facet faces away from the light,
@@ -188,7 +232,7 @@ class DirectLight:
         free[column] &= free_above
         return free
 
-    def _to_light(self, light: Light, hits: Hits, candidates: Candidates) -> Floats32:
+    def to_light(self, light: Light, hits: Hits, candidates: Candidates) -> Floats32:
         """Vectors (3, k) of the shadow rays, which begin above the hits for which the light was sampled."""
         if light.limit > TO_THE_LIGHT:
             return repeated(candidates.to_light, candidates.origin.shape[1])
@@ -204,43 +248,3 @@ class DirectLight:
         column = np.flatnonzero(near)
         ng = hits.ng.take(candidates.hit(column), axis=1)
         return column[dot(ng, to_light.take(column, axis=1)) <= 0]
-
-    def _highlight(self, hits: Hits, candidates: Candidates, irradiance: Floats32) -> Floats32:
-        """(n . h)^exponent times the irradiance, (k,)."""
-        highlight = blinn_phong_highlight(
-            candidates.to_light * candidates.inverse_length,
-            candidates.of(hits.direction),
-            candidates.of(hits.ns),
-            self.exponent(candidates.of(hits.material)),
-        )
-        highlight *= irradiance
-        return highlight
-
-    def _accumulated(
-        self,
-        total: Floats32 | None,
-        hits: Hits,
-        candidates: Candidates,
-        values: Floats32,
-        color: Floats32,
-    ) -> Floats32:
-        """Add values (k,) times a colour to the total (3, n) of all hits."""
-        if candidates.columns is not None:
-            spread = np.zeros(hits.size, np.float32)
-            spread[candidates.columns] = values
-            values = spread
-        added: Floats32 = values * color[:, None]
-        if total is None:
-            return added
-        total += added
-        return total
-
-    def _reflected(self, hits: Hits, diffuse: Floats32, specular: Floats32 | None) -> Floats32:
-        """Multiply both sums by their reflectances, in place, and add them."""
-        diffuse *= self.diffuse(hits.material)
-        if hits.tint is not None:
-            diffuse *= hits.tint
-        if specular is not None and self.specular is not None:
-            specular *= self.specular(hits.material)
-            diffuse += specular
-        return diffuse

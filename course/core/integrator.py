@@ -89,20 +89,20 @@ class Integrator:
             if rays.size > LARGEST_BATCH:
                 pile += [(depth, part) for part in rays.halves()]
                 continue
-            following = self._follow(rays, depth, path_radiance, draws)
+            following = self.follow(rays, depth, path_radiance, draws)
             if following is not None:
                 pile.append((depth + 1, following))
         return path_radiance
 
-    def _follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
+    def follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
         """Follow rays for one depth: add their radiance, and return the rays of the next depth."""
         counters = draws.counters
         # ---- intersection, environment, absorption
-        hits, throughput, path, medium = self._intersect(rays, True, depth, path_radiance, draws)
+        hits, throughput, path, medium = self.intersect(rays, True, depth, path_radiance, draws)
         if hits.size == 0:
             return None
         # ---- direct light, ambient light, emission
-        radiance = self._shade(hits, path, depth, draws)
+        radiance = self.shade(hits, path, depth, draws)
         if radiance is not None:
             self.add_radiance(path_radiance, path, radiance, throughput)
         counters.lap("shade")
@@ -113,7 +113,7 @@ class Integrator:
         counters.lap("bounce")
         return following
 
-    def _intersect(
+    def intersect(
         self,
         rays: Rays,
         adds_lights: Mask | bool,
@@ -150,7 +150,7 @@ class Integrator:
         counters.lap("hits")
         return hits, throughput, path, medium
 
-    def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
+    def shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
         """Radiance (3, n) from the hits towards the viewer, without that of scattered rays."""
         radiance = None
         if self.direct is not None:

@@ -117,12 +117,13 @@ class Scatter:
     ) -> Floats32:
         """Reflected directions (3, m) at the given hits, above the surface; path: (m,)."""
         ng = hits.ng.take(which, axis=1)
-        mirrored = self._mirror_images(hits, which, ng)
+        mirrored = self.mirror_images(hits, which, ng)
         if self.gloss is None:
             return mirrored
         return self.gloss(hits.material.take(which), mirrored, ng, path, depth, draws)
 
-    def _mirror_images(self, hits: Hits, which: Indices, ng: Floats32) -> Floats32:
+    def mirror_images(self, hits: Hits, which: Indices, ng: Floats32) -> Floats32:
+        """Mirrored directions (3, m) at the given hits, whose geometric normals are ng (3, m)."""
         mirrored = reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
         return kept_above(mirrored, ng)
 
@@ -139,6 +140,13 @@ class Scatter:
         direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
         refracted = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
         return kept_above(refracted, -hits.ng.take(which, axis=1))
+
+    def weights(self, hits: Hits, which: Indices, way: Floats32, through: bool) -> Floats32 | None:
+        """What directions (3, m) off the given hits, or through their surface, count besides their throughput.
+
+        (m,) float32, or None for 1: here directions are as dense as they are worth.
+        """
+        return None
 
     def medium_behind(self, hits: Hits, which: Indices) -> Media:
         """Medium (m,) of rays refracted at the given hits."""
@@ -182,6 +190,9 @@ class Scatter:
             direction = self.mirrored(hits, which, path, depth, draws)
         else:
             direction = self.refracted(hits, which, boundary.of(which), path, depth, draws)
+        count = self.weights(hits, which, direction, boundary is not None)
+        if count is not None:
+            throughput = throughput * count
         draws.cast("reflection" if boundary is None else "refraction", len(which), path)
         start = None
         if medium is not None:

@@ -18,6 +18,7 @@ from course.core.lights.sample import Light
 from course.core.materials import Lookup, MaterialTable
 from course.core.motion import Motion
 from course.core.rays import Dimensions
+from course.core.reflection import BlinnPhong
 from course.core.scatter import Scatter
 from course.core.types import Floats32
 
@@ -99,9 +100,11 @@ def plan_direct_light(world: World, sky: bool = False) -> DirectLight | None:
         world.lights,
         world.motion,
         None if materials.shaded_sides.all() else materials.shaded_sides,
-        Lookup(materials.diffuse),
-        Lookup(materials.specular) if materials.specular.any() else None,
-        Lookup(materials.exponent),
+        BlinnPhong(
+            Lookup(materials.diffuse),
+            Lookup(materials.specular) if materials.specular.any() else None,
+            Lookup(materials.exponent),
+        ),
     )
 
 

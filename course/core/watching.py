@@ -23,5 +23,14 @@ class Watcher(Protocol):
     def met(self, path: Indices, hits: Any, throughput: Floats32 | None) -> None:
         """Hits of rays ``path`` (n,) and their throughput (3, n), None for 1."""
 
+    def asks(self, direct: Any, light: Any, path: Indices | None) -> None:
+        """Hits of rays ``path`` (n,), those that were met last or some of them, will ask a light."""
+
+    def faced(self, direct: Any, hits: Any, sample: Any, candidates: Any | None) -> None:
+        """Which of them will send a shadow ray: ``Candidates``, or None."""
+
+    def shadowed(self, direct: Any, light: Any, hits: Any, candidates: Any, free: Mask) -> None:
+        """Which ways (k,) are free; the candidates have the irradiance that arrives."""
+
     def bounces(self, path: Indices | None) -> None:
         """Paths (m,) will ask for directions off diffuse surfaces; None: all hits will ask what they carry on."""

@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from course.core.direct import Candidates, DirectLight
+from course.core.direct import Candidates, DirectLight, Sums
 from course.core.hits import Hits, Surface
 from course.core.integrator import Integrator
 from course.core.lights.rectangle import RectangleLight
-from course.core.lights.sample import Light, Sample
+from course.core.lights.sample import Light
 from course.core.materials import Lookup
 from course.core.motion import Motion
 from course.core.rays import Draws, Rays
@@ -240,25 +240,15 @@ class Combining:
 
 
 @dataclass(frozen=True)
-class MetalLight(DirectLight):
-    """What rough metals reflect of lights' points, before the surface's reflectance.
+class MetalReflection:
+    """What rough metals reflect, before the surface's reflectance: a ``Reflection`` whose first sum is radiance."""
 
-    ``combining`` : has the metals; None never stands in a plan
-    """
+    combining: Combining
 
-    combining: Combining | None = None
-
-    def _accumulated(
-        self,
-        total: Floats32 | None,
-        hits: Hits,
-        candidates: Candidates,
-        values: Floats32,
-        color: Floats32,
-    ) -> Floats32:
-        """See ``DirectLight``; irradiance over pi, times pi and what metals reflect of it."""
-        assert self.combining is not None
-        added = values * color[:, None]
+    def add(self, sums: Sums, hits: Hits, candidates: Candidates, color: Floats32) -> Sums:
+        """See ``Reflection``; irradiance over pi, times pi and what metals reflect of it."""
+        total = sums[0]
+        added = candidates.irradiance * color[:, None]
         way = repeated(candidates.to_light * candidates.inverse_length, added.shape[1])
         arrays = [candidates.of(each) for each in (hits.direction, hits.ns, hits.ng)]
         for one, some in hits_on(self.combining.metals, candidates.of(hits.material)):
@@ -269,28 +259,34 @@ class MetalLight(DirectLight):
             spread = np.zeros((3, hits.size), np.float32)
             spread[:, candidates.columns] = added
             added = spread
-        return added if total is None else np.add(total, added, out=total)
+        return (added if total is None else np.add(total, added, out=total)), None
+
+    def reflected(self, _hits: Hits, sums: Sums) -> Floats32:
+        """See ``Reflection``."""
+        assert sums[0] is not None
+        return sums[0]
 
 
 @dataclass(frozen=True)
-class LobeLight(MetalLight):
+class LobeLight:
     """What lobes reflect of the points of one lamp, before the surface's reflectance.
 
-    ``lamp`` : the only one among the lights
+    Attributes
+    ----------
+    lamp : whose points are looked for
+    direct : the stage that looks for them
     """
 
-    lamp: Lamp | None = None
+    combining: Combining
+    lamp: Lamp
+    direct: DirectLight
 
-    def _candidates(self, hits: Hits, sample: Sample) -> Candidates | None:
-        found = super()._candidates(hits, sample)
-        if found is None:
-            return None
-        assert self.lamp is not None
-        assert self.combining is not None
+    def weigh(self, hits: Hits, found: Candidates) -> Candidates | None:
+        """See ``Weigh``: light that lobes reflect, by the lamp's weight."""
         of, way = found.of, found.to_light * found.inverse_length
         lamp = self.lamp.density(of(hits.p), found.to_light)
         # Weighted as seen from where the lobe's rays begin, as what these meet is.
-        seen = self.lamp.density(found.origin, self._to_light(self.lamp.light, hits, found))
+        seen = self.lamp.density(found.origin, self.direct.to_light(self.lamp.light, hits, found))
         arrays = of(hits.material), of(hits.direction), of(hits.ns), of(hits.ng)
         lobe = self.combining.lobe_density(*arrays, way)
         # The light's colour is its radiance times its area over pi.
@@ -322,15 +318,14 @@ class LobeLight(MetalLight):
         self, hits: Hits, axis: Floats32, path: Indices | None, depth: int, draws: Draws
     ) -> Floats32 | None:
         """Radiance (3, n), or None for 0; ``axis`` (3, n) of the lobes."""
-        assert self.lamp is not None
-        assert self.combining is not None
+        direct = replace(self.direct, weigh=self.weigh)
         asked = self.combining.asks(hits, axis, self.lamp)
         if asked is None or len(asked) == hits.size:
-            return self._from_lights(hits, path, depth, draws)[0]
+            return direct.from_lights(hits, path, depth, draws)[0]
         if len(asked) == 0:
             return None
         of = asked if path is None else path.take(asked)
-        found = self._from_lights(some_of(hits, asked), of, depth, draws)[0]
+        found = direct.from_lights(some_of(hits, asked), of, depth, draws)[0]
         if found is None:
             return None
         radiance = np.zeros((3, hits.size), np.float32)
@@ -353,13 +348,7 @@ class LampsAndLobes:
     combining: Combining
     scatter: Scatter
     by_points: tuple[LobeLight, ...]
-    on_metals: MetalLight | None = None
-
-    def seen_by(self, surface: Surface, scatter: Scatter) -> "LampsAndLobes":
-        """The same with another surface to trace, and another way to scatter."""
-        stages = tuple(replace(stage, surface=surface) for stage in self.by_points)
-        bare = None if self.on_metals is None else replace(self.on_metals, surface=surface)
-        return replace(self, scatter=scatter, by_points=stages, on_metals=bare)
+    on_metals: DirectLight | None = None
 
     def light(
         self, hits: Hits, beta: Floats32 | None, path: Indices | None, depth: int, draws: Draws
@@ -388,7 +377,7 @@ class LampsAndLobes:
         if self.on_metals is not None:
             metal = np.flatnonzero(self.combining.is_metal.take(some.material))
             which = of.take(metal)
-            found = self.on_metals._from_lights(some_of(some, metal), which, depth, draws)[0]
+            found = self.on_metals.from_lights(some_of(some, metal), which, depth, draws)[0]
             if found is not None:
                 total = np.zeros((3, some.size), np.float32) if total is None else total
                 total[:, metal] += found
@@ -441,20 +430,25 @@ class LampsAndLobes:
 class CombiningIntegrator(Integrator):
     """The distribution ray tracer, where lamps in glossy surfaces are looked for in both ways.
 
-    ``lamps_and_lobes`` : the stage; None never stands in a plan
+    Attributes
+    ----------
+    lamps_and_lobes : the stage; None never stands in a plan
+    lamps : (3, M) radiance emitted from the fronts of lights, in the place of ``emission``
     """
 
     lamps_and_lobes: LampsAndLobes | None = None
+    lamps: Lookup | None = None
 
-    def _follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
+    def follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
+        """See ``Integrator``."""
         stage, counters = self.lamps_and_lobes, draws.counters
         assert stage is not None
-        hits, throughput, path, medium = self._intersect(rays, True, depth, path_radiance, draws)
+        hits, throughput, path, medium = self.intersect(rays, True, depth, path_radiance, draws)
         if hits.size == 0:
             return None
-        parts = [self._shade(hits, path, depth, draws)]
-        if self.emission is not None:
-            seen, share = self.emission(hits.material) * hits.entering, stage.share(rays, hits)
+        parts = [self.shade(hits, path, depth, draws)]
+        if self.lamps is not None:
+            seen, share = self.lamps(hits.material) * hits.entering, stage.share(rays, hits)
             parts.append(seen if share is None else seen * share)
         if depth < self.max_depth:
             parts.append(stage.light(hits, throughput, path, depth, draws))
@@ -468,37 +462,17 @@ class CombiningIntegrator(Integrator):
         counters.lap("bounce")
         return None if following is None else stage.carried(hits, path, following)
 
-    def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
-        """See ``Integrator``; what lamps emit comes by itself."""
-        radiance = None
-        if self.direct is not None:
-            radiance = self.direct(hits, path, depth, draws)
-        for term in (
-            None if self.ambient is None else self._ambient_light(hits, self.ambient),
-            None if self.glow is None else self.glow(hits.material),
-        ):
-            if term is not None:
-                radiance = term + (
-                    np.zeros((3, hits.size), np.float32) if radiance is None else radiance
-                )
-        return radiance
-
 
 def plan_lamps_and_lobes(
     combining: Combining, surface: Surface, scatter: Scatter, motion: Motion | None
 ) -> LampsAndLobes:
     """The stage of a scene."""
-    arrays: dict[str, Any] = {
-        "surface": surface,
-        "motion": motion,
-        "shaded": None,
-        "diffuse": Lookup(np.ones((3, 1), np.float32)),
-        "specular": None,
-        "exponent": Lookup(np.zeros(1, np.float32)),
-        "combining": combining,
-    }
-    stages = tuple(LobeLight(lights=(lamp.light,), lamp=lamp, **arrays) for lamp in combining.lamps)
-    bare = MetalLight(lights=combining.bare, **arrays) if combining.bare else None
+    direct = DirectLight(surface, (), motion, None, MetalReflection(combining))
+    stages = tuple(
+        LobeLight(combining, lamp, replace(direct, lights=(lamp.light,)))
+        for lamp in combining.lamps
+    )
+    bare = replace(direct, lights=combining.bare) if combining.bare else None
     return LampsAndLobes(combining, scatter, stages, bare)
 
 

@@ -17,11 +17,13 @@ from typing import Any
 
 import numpy as np
 
+from course.core.direct import Ask, Sums
 from course.core.hits import Hits
 from course.core.lights.point import DirectionalLight, PointLight
 from course.core.lights.rectangle import RectangleLight
-from course.core.lights.sample import Light, Sample, Towards, towards
+from course.core.lights.sample import Light, Sample
 from course.core.lights.sphere import SphereLight
+from course.core.rays import Draws
 from course.core.types import Floats32, Indices
 
 WHICH, WHERE = "light choice", "place on light"
@@ -80,6 +82,23 @@ class LightChoice(ABC):
             each.position if isinstance(each, PointLight) else nowhere for each in self.lights
         ]
         return np.array(places, np.float32).T
+
+    def arriving(
+        self, ask: Ask, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> Sums:
+        """See ``course.core.direct.LightChoice``."""
+        u = draws(WHICH, path, depth)[0]
+        places = draws(WHERE, path, depth) if self.width else None
+        diffuse: Floats32 | None = None
+        specular: Floats32 | None = None
+        for light, which in self.groups(hits, u, places):
+            if which is None:
+                return ask(light, (None, None), hits, path, depth, draws)
+            of = which if path is None else path.take(which)
+            more = ask(light, (None, None), some_of(hits, which), of, depth, draws)
+            diffuse = _spread(diffuse, more[0], which, hits.size)
+            specular = _spread(specular, more[1], which, hits.size)
+        return diffuse, specular
 
     def groups(self, hits: Hits, u: Floats32, places: Floats32 | None) -> Iterator[Group]:
         """Lights for n hits, one for those of each kind.
@@ -199,7 +218,7 @@ class ChosenLight(Light):
     limit: float = 1.0
     width: int = 0
 
-    def sample(self, points: Floats32, _u: Floats32 | None, _towards: Towards) -> Sample:
+    def sample(self, points: Floats32, _u: Floats32 | None) -> Sample:
         """See ``Light``; the numbers are those of ``places``."""
         choice, n = self.choice, len(self.number)
         first = choice.lights[self.number[0]]
@@ -219,10 +238,21 @@ class ChosenLight(Light):
                 u = None
                 if self.places is not None and light.width:
                     u = self.places[: light.width].take(which, axis=1)
-                one = light.sample(points.take(which, axis=1), u, towards)
+                one = light.sample(points.take(which, axis=1), u)
                 to_light[:, which] = one.to_light
                 lengths[which], factor[which] = one.inverse_length, one.factor
         return Sample(to_light, lengths, factor * self.weight)
+
+
+def _spread(
+    total: Floats32 | None, values: Floats32 | None, which: Indices, n: int
+) -> Floats32 | None:
+    """The total (3, n) with values (3, m) at the hits ``which`` (m,); None stands for 0."""
+    if values is None:
+        return total
+    total = np.zeros((3, n), np.float32) if total is None else total
+    total[:, which] = values
+    return total
 
 
 def some_of(hits: Hits, which: Indices) -> Hits:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from course.core.lights.sample import TO_A_POINT, Light, Sample, Towards, inverse_square
+from course.core.lights.sample import TO_A_POINT, Light, Sample, inverse_square
 from course.core.types import Floats32, Floats64
 from course.core.vectors import cross, dot, gather
 from course.extras.mesh_groups import Groups, make_groups
@@ -43,7 +43,7 @@ class MeshLight(Light):
         groups = make_groups(self.shares, self.planes, self.edges)
         object.__setattr__(self, "groups", groups)
 
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``.
 
         A shadow ray ends as far above the triangle as others start, not at a share of its way: of a thin box it would

@@ -16,7 +16,6 @@ from course.core.rays import OPEN, Draws, Rays
 from course.core.scatter import Boundary, Scatter, kept_above
 from course.core.types import Floats32, Functions, Indices, Mask, Media
 from course.extras.russian_roulette import survivors
-from course.extras.scatter import FullScatter
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)
 
@@ -135,10 +134,9 @@ class PathBounce:
         self, after: Floats32, hits: Hits, which: Indices, way: Floats32, through: bool
     ) -> None:
         """Multiply the throughput (3, m) of mirrored or refracted rays by what their directions count."""
-        if isinstance(self.scatter, FullScatter):
-            count = self.scatter.weights(hits, which, way, through)
-            if count is not None:
-                after *= count
+        count = None if self.scatter is None else self.scatter.weights(hits, which, way, through)
+        if count is not None:
+            after *= count
 
     def _origins(
         self, hits: Hits, which: Indices, near: int, after: Floats32

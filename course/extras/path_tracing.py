@@ -112,7 +112,7 @@ class PathIntegrator(Integrator):
         ``adds_lights``: (n,) bool, rays whose light from lamps and the environment counts; None for none of them
         """
         counters = draws.counters
-        hits, throughput, path, medium = self._intersect(
+        hits, throughput, path, medium = self.intersect(
             rays, False if adds_lights is None else adds_lights, depth, path_radiance, draws
         )
         if adds_lights is not None and hits.ray is not None:

@@ -15,13 +15,13 @@ from course.core.scatter import Scatter
 from course.core.scene import plan_dimensions, plan_direct_light, plan_integrator, plan_scatter
 from course.extras.absorption import Absorption
 from course.extras.conductors import Conductors
-from course.extras.direct import FullDirectLight
 from course.extras.lamps_and_lobes import CombiningIntegrator, plan_lamps_and_lobes
-from course.extras.light_choice import WHERE, WHICH
+from course.extras.light_choice import WHERE, WHICH, LightChoice
 from course.extras.materials import FullMaterials
 from course.extras.microfacets import NUMBERS as MICROFACET
 from course.extras.path_bounce import PathBounce
 from course.extras.path_tracing import PathIntegrator, glow
+from course.extras.reflection import FullReflection
 from course.extras.rough_glass import REFRACTION
 from course.extras.samplers.sobol import SobolSampler
 from course.extras.scatter import FullScatter
@@ -64,7 +64,7 @@ def plan(
     rough = [REFRACTION] if full and full.rough else []
     rough += [MICROFACET] if full and full.microfacets else []
     further = [NUMBERS] if sky is not None else []
-    if isinstance(direct, FullDirectLight) and (choice := direct.choice) is not None:
+    if direct is not None and isinstance(choice := direct.choice, LightChoice):
         further = [(WHICH, 1), (WHERE, choice.width), *further]
     if paths is not None:
         further += [BOUNCE, CHOICE] if diffuses and max_depth > 0 else [CHOICE]
@@ -74,7 +74,10 @@ def plan(
         if isinstance(integrator, PathIntegrator):
             integrator = replace(integrator, lamps_and_lobes=both)
         else:
-            integrator = CombiningIntegrator(**same_fields(integrator), lamps_and_lobes=both)
+            known = same_fields(integrator) | {"emission": None}
+            integrator = CombiningIntegrator(
+                **known, lamps_and_lobes=both, lamps=integrator.emission
+            )
     # Of a choice among lights the numbers are its own, and no light's.
     drawing = world if world.choice is None else replace(world, lights=())
     return integrator, plan_dimensions(drawing, camera, rough, further)
@@ -113,11 +116,13 @@ def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     direct = plan_direct_light(world, sky is not None)
     highlights = materials.highlights if isinstance(materials, FullMaterials) else None
     choice = world.choice if world.lights else None
-    extras = sky, highlights, choice, getattr(world.surface, "shine", None)
-    if direct is None or all(extra is None for extra in extras):
-        return direct
-    known = same_fields(direct) | {"sky": sky}
-    return FullDirectLight(**known, highlights=highlights, choice=choice)
+    if direct is None:
+        return None
+    shine = getattr(world.surface, "shine", None)
+    if highlights is not None or shine is not None:
+        known = same_fields(direct.reflection)
+        direct = replace(direct, reflection=FullReflection(**known, highlights=highlights))
+    return replace(direct, sky=sky, choice=choice)
 
 
 def _path_integrator(

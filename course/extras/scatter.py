@@ -1,14 +1,14 @@
 """Scattering by metals, rough glass and microfacets, and without correcting directions that point into the surface."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from course.core.fresnel_refraction import refract
 from course.core.hits import Hits
-from course.core.rays import Draws, Rays
+from course.core.rays import Draws
 from course.core.scatter import Boundary, Scatter, kept_above
-from course.core.types import Floats32, Indices, Media
+from course.core.types import Floats32, Indices
 from course.core.vectors import dot, reflect
 from course.extras import microfacets, rough_glass
 from course.extras.conductors import Conductors
@@ -99,9 +99,10 @@ class FullScatter(Scatter):
         way[:, inside] = back
         return way
 
-    def _mirror_images(self, hits: Hits, which: Indices, ng: Floats32) -> Floats32:
+    def mirror_images(self, hits: Hits, which: Indices, ng: Floats32) -> Floats32:
+        """See ``Scatter``."""
         if not self.keeps:
-            return super()._mirror_images(hits, which, ng)
+            return super().mirror_images(hits, which, ng)
         return reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
 
     def refracted(
@@ -131,23 +132,5 @@ class FullScatter(Scatter):
         return way
 
     def weights(self, hits: Hits, which: Indices, way: Floats32, through: bool) -> Floats32 | None:
-        """What directions count besides their throughput; see ``course.extras.microfacets``."""
+        """See ``Scatter``, and ``course.extras.microfacets``."""
         return microfacets.weights(self.microfacets, hits, which, way, through)
-
-    def _leaving(
-        self,
-        hits: Hits,
-        throughput: Floats32,
-        boundary: Boundary | None,
-        path: Indices | None,
-        medium: Media | None,
-        depth: int,
-        draws: Draws,
-    ) -> Rays | None:
-        """See ``Scatter``."""
-        rays = super()._leaving(hits, throughput, boundary, path, medium, depth, draws)
-        if rays is None or not self.microfacets or rays.throughput is None:
-            return rays
-        which = np.flatnonzero(throughput.max(axis=0) > self.cutoff)
-        count = self.weights(hits, which, rays.direction, boundary is not None)
-        return rays if count is None else replace(rays, throughput=rays.throughput * count)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.lights.point import PointLight
-from course.core.lights.sample import Sample, Towards
+from course.core.lights.sample import Sample
 from course.core.lights.sample import towards as towards_in_numpy
 from course.core.types import Floats32
 from course.core.vectors import dot
@@ -30,7 +30,7 @@ class SpotLight(PointLight):
     inner: float
     outer: float
 
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``; compiled stages call it, too."""
         sample = towards_in_numpy(self.position[:, None], points)
         # 1 - cos of an angle is half the square of the chord, which keeps its digits where the angle is small.

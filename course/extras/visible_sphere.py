@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.lights.sample import CLOSEST, TO_A_SURFACE, Light, Sample, Towards
+from course.core.lights.sample import CLOSEST, TO_A_SURFACE, Light, Sample
 from course.core.types import Floats32
 from course.core.vectors import dot
 from course.extras.hemisphere import cone_directions
@@ -34,7 +34,7 @@ class VisibleSphereLight(Light):
     velocity: Floats32 | None = None
     limit: float = TO_A_SURFACE
 
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         assert u is not None
         axis = self.center[:, None] - points

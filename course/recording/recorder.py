@@ -11,9 +11,13 @@ from typing import Any
 import numpy as np
 
 from course.contracts import contract
+from course.core.direct import Candidates, DirectLight
 from course.core.hits import Hits
+from course.core.lights.sample import Light, Sample
 from course.core.rays import Rays
 from course.core.types import Floats32, Indices, Mask, Materials
+from course.core.vectors import dot
+from course.recording.asking import Asking
 
 LARGEST_ARGUMENT = 16
 """Numbers of an argument that isn't one of each ray's; larger ones, such as pictures, are told by their shape."""
@@ -73,11 +77,10 @@ class Recorder:
         self.ids: Indices = self.path
         self.stage = "building"
         self.asked: dict[str, int] = {}
-        self.muted = False
         self.material: Materials | None = None
         # What stages tell each other: the hits whose rays were cast last, those rays, and the environment's light.
         self.ids_cast: Indices = self.path
-        self.asked_last: Any = None
+        self.asking: Asking | None = None
         self.weights: Floats32 | None = None
         self.sky: Any = None
         self._wanted: Mask = np.zeros(0, np.bool_)
@@ -132,6 +135,70 @@ class Recorder:
         assert rays.path is not None
         self.ids, self.stage = rays.path.compress(met), "surface"
 
+    def asks(self, direct: DirectLight, light: Light, path: Indices | None) -> None:
+        """See ``Watcher``; of several lights one may be chosen by each hit, so only some hits ask it."""
+        if self._listens(direct):
+            assert path is not None
+            self.ids, self.stage = path, light.name
+
+    def faced(
+        self, direct: DirectLight, hits: Hits, sample: Sample, candidates: Candidates | None
+    ) -> None:
+        """See ``Watcher``: why hits need no shadow ray."""
+        if not self._listens(direct):
+            return
+        unlit = np.ones(hits.size, np.bool_)
+        if candidates is not None:
+            unlit[candidates.index] = False
+        which = np.flatnonzero(unlit)
+        back = np.broadcast_to(dot(hits.ns, sample.to_light) <= 0, hits.size).take(which)
+        reason = np.where(back, "surface", "light")
+        if direct.shaded is not None:
+            front, inside = direct.shaded[0], direct.shaded[-1]
+            shows = np.where(hits.entering, front.take(hits.material), inside.take(hits.material))
+            reason = np.where(shows.take(which), reason, "material")
+        ids = self.ids.take(which)
+        self.unlit.add(self.kept(ids), id=ids, light=self.stage, reason=reason)
+
+    def shadowed(
+        self, direct: DirectLight, light: Light, hits: Hits, candidates: Candidates, free: Mask
+    ) -> None:
+        """See ``Watcher``: the shadow rays, what blocks them, and what they bring."""
+        if not self._listens(direct):
+            return
+        sums = direct.reflection.add((None, None), hits, candidates, light.color)
+        # A column of shadow rays is a hit or a candidate.
+        columns = candidates.index
+        if candidates.columns is not None:
+            columns = np.arange(len(columns))
+        shown = direct.reflection.reflected(hits, sums)
+        self.tell_shadows(shown, light.name, candidates.index, columns, free.take(columns))
+
+    def tell_shadows(
+        self, shown: Floats32, light: str, which: Indices, columns: Indices, free: Any = None
+    ) -> None:
+        """Tell of m shadow rays: their hits, their columns among those asked, and radiance (3, n) of all hits."""
+        assert self.asking is not None
+        origin, direction, far, triangle = self.asking.blockers(columns)
+        ids = self.ids.take(which)
+        self.shadows.add(
+            self.kept(ids),
+            id=ids,
+            light=light,
+            origin=origin,
+            direction=direction,
+            limit=self.asking.last[2],
+            far=far,
+            free=self.asking.last[3].take(columns) if free is None else free,
+            triangle=triangle,
+            value=shown.take(which, axis=1),
+        )
+
+    def _listens(self, direct: DirectLight) -> bool:
+        """Whether a stage's light is told by its rays: not that of lobes, which have rays of their own."""
+        asked: Any = direct.surface.accelerator
+        return asked is self.asking
+
     def bounces(self, path: Indices | None) -> None:
         """See ``Watcher``."""
         self.stage = "bounce"
@@ -168,7 +235,7 @@ class Recorder:
 
     def called(self, name: str, arguments: tuple[Any, ...], result: Any) -> None:
         """The function "module.function" was called."""
-        if self.muted:
+        if self.asking is not None and self.asking.muted:
             return
         if name == "supersampling.gaussian_weights":
             self.weights = result

@@ -7,22 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from course.core.accelerator import QueryStats
-from course.core.direct import Candidates, DirectLight
+from course.core.direct import DirectLight
 from course.core.hits import Hits
 from course.core.integrator import Integrator
-from course.core.lights.sample import Light, Sample
 from course.core.rays import Draws
 from course.core.scatter import Boundary, Scatter
 from course.core.tracer import Tracer
-from course.core.types import Floats32, Indices, Mask, Numbers
-from course.core.vectors import dot
+from course.core.types import Floats32, Indices, Numbers
 from course.effects import Effects
 from course.extras.light_tree import TreeChoice
 from course.extras.painting import ColorAt, Painting
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import same_fields
 from course.extras.sky import Sky
+from course.recording.asking import Asking
 from course.recording.recorder import ENVIRONMENT_LIGHT, Recorder
 
 SPREAD = 64
@@ -126,7 +124,8 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
     integrator = tracer.integrator
     changed: dict[str, Any] = {}
     if integrator.direct is not None:
-        asking = Asking(integrator.surface.accelerator, recorder)
+        asking = Asking(integrator.surface.accelerator)
+        recorder.asking = asking
         seen: dict[str, Any] = same_fields(integrator.surface) | {"accelerator": asking}
         seen = {"surface": type(integrator.surface)(**seen)}
         if (sky := integrator.direct.sky) is not None:
@@ -189,41 +188,6 @@ class RecordedPainting(Painting):
         self.recorder.ids = ids
 
 
-class Asking:
-    """An accelerator that keeps the last shadow rays, with what blocks them."""
-
-    def __init__(self, accelerator: Any, recorder: Recorder) -> None:
-        self._accelerator, self._recorder = accelerator, recorder
-
-    def unoccluded(
-        self,
-        origin: Floats32,
-        direction: Floats32,
-        limit: float,
-        stats: QueryStats,
-        time: Floats32 | None = None,
-        *,
-        active: Mask | None = None,
-    ) -> Mask:
-        """See ``Accelerator``."""
-        free: Mask = self._accelerator.unoccluded(
-            origin, direction, limit, stats, time, active=active
-        )
-        self._recorder.asked_last = origin.copy(), direction.copy(), limit, free.copy(), time
-        return free
-
-    def blockers(self, which: Indices) -> tuple[Floats32, Floats32, Floats32, Indices]:
-        """Origins, directions (3, m), distances (m,) of what blocks them, and its triangles (m,), -1 for none."""
-        origin, direction, limit, _, time = self._recorder.asked_last
-        origin, direction = origin.take(which, axis=1), direction.take(which, axis=1)
-        self._recorder.muted = True
-        when = None if time is None else time.take(which)
-        found = self._accelerator.intersect(origin, direction, QueryStats(), when)
-        self._recorder.muted = False
-        blocked = (found.triangle >= 0) & (found.t < limit)
-        return origin, direction, found.t, np.where(blocked, found.triangle, -1)
-
-
 class RecordedDirect(DirectLight):
     """Tells of the shadow rays to each light, and of the hits that need none."""
 
@@ -240,75 +204,9 @@ class RecordedDirect(DirectLight):
         recorder.ids, recorder.stage = path, "surface"
         if recorder.sky is not None:
             irradiance, which, places = recorder.sky
-            self._tell(self._reflected(hits, irradiance, None), ENVIRONMENT_LIGHT, which, places)
+            shown = self.reflection.reflected(hits, (irradiance, None))
+            recorder.tell_shadows(shown, ENVIRONMENT_LIGHT, which, places)
         return radiance
-
-    def _from_lights(
-        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
-    ) -> tuple[Floats32 | None, Floats32 | None]:
-        # Of several lights one is chosen by each hit, so only some hits ask it.
-        assert path is not None
-        self.recorder.ids = path
-        return super()._from_lights(hits, path, depth, draws)
-
-    def _sample(self, light: Light, points: Floats32, u: Floats32 | None) -> Sample:
-        self.recorder.stage = light.name
-        return super()._sample(light, points, u)
-
-    def _candidates(self, hits: Hits, sample: Sample) -> Candidates | None:
-        found = super()._candidates(hits, sample)
-        unlit = np.ones(hits.size, np.bool_)
-        if found is not None:
-            unlit[found.index] = False
-        which = np.flatnonzero(unlit)
-        back = np.broadcast_to(dot(hits.ns, sample.to_light) <= 0, hits.size).take(which)
-        reason = np.where(back, "surface", "light")
-        if self.shaded is not None:
-            front, inside = self.shaded[0], self.shaded[-1]
-            shows = np.where(hits.entering, front.take(hits.material), inside.take(hits.material))
-            reason = np.where(shows.take(which), reason, "material")
-        recorder = self.recorder
-        ids = recorder.ids.take(which)
-        recorder.unlit.add(recorder.kept(ids), id=ids, light=recorder.stage, reason=reason)
-        return found
-
-    def _visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
-        free = super()._visible(light, hits, candidates, draws)
-        irradiance = candidates.irradiance * free
-        unblocked = replace(candidates, irradiance=irradiance)
-        diffuse = self._accumulated(None, hits, unblocked, irradiance, light.color)
-        specular = None
-        if self.specular is not None:
-            highlight = self._highlight(hits, candidates, irradiance)
-            specular = self._accumulated(None, hits, candidates, highlight, light.color)
-        # A column of shadow rays is a hit or a candidate.
-        columns = candidates.index
-        if candidates.columns is not None:
-            columns = np.arange(len(columns))
-        shown = self._reflected(hits, diffuse, specular)
-        self._tell(shown, light.name, candidates.index, columns, free.take(columns))
-        return free
-
-    def _tell(
-        self, shown: Floats32, light: str, which: Indices, columns: Indices, free: Any = None
-    ) -> None:
-        """Tell of m shadow rays: their hits, their columns among those asked, and radiance (3, n) of all hits."""
-        recorder, asking = self.recorder, self.surface.accelerator
-        assert isinstance(asking, Asking)
-        origin, direction, far, triangle = asking.blockers(columns)
-        ids = recorder.ids.take(which)
-        recorder.shadows.add(
-            recorder.kept(ids),
-            id=ids,
-            light=light,
-            origin=origin,
-            direction=direction,
-            limit=recorder.asked_last[2],
-            far=far,
-            free=recorder.asked_last[3].take(columns) if free is None else free,
-            triangle=triangle,
-            value=shown.take(which, axis=1),
-        )
 
 
 def _recorded_walk(choice: TreeChoice, recorder: Recorder) -> TreeChoice:

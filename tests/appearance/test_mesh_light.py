@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from course.core.lights.sample import towards
 from course.core.types import Floats32, Floats64
 from course.extras import mesh_light
 from course.extras.mesh_light import MeshLight, areas, shares
@@ -49,7 +48,7 @@ def test_triangles_are_chosen_by_their_areas() -> None:
     corners = np.array([[[i, 0, 0], [i + 0.5, 0, 0], [i, 0, s]] for i, s in enumerate(size)])
     light, n = light_of(corners), 200_000
     point = np.array([[7], [-7], [7]], np.float32)
-    sample = light.sample(np.repeat(point, n, axis=1), drawn(n, 2), towards)
+    sample = light.sample(np.repeat(point, n, axis=1), drawn(n, 2))
     found = (sample.to_light[0] + 7).astype(int)
     uniform = 7 * sample.inverse_length.astype(np.float64) ** 3
     weight = sample.factor / uniform
@@ -63,7 +62,7 @@ def test_triangles_are_chosen_by_their_areas() -> None:
 def test_points_are_uniform_on_their_triangle() -> None:
     corners = np.array([[[0, 0, 0], [1, 0, 0], [0, 0, 1]]], float)
     n = 200_000
-    x, _, z = light_of(corners).sample(np.zeros((3, n), np.float32), drawn(n, 3), towards).to_light
+    x, _, z = light_of(corners).sample(np.zeros((3, n), np.float32), drawn(n, 3)).to_light
     assert min(x.min(), z.min()) >= 0
     assert (x + z).max() <= 1 + 1e-6
     # Moments of the uniform density 2 on it: of x^a z^b they are 2 a! b! / (a + b + 2)!.
@@ -76,7 +75,7 @@ def test_the_irradiance_of_a_square_is_its_form_factor() -> None:
     """Above the middle of one of its corners, and facing it: a quarter of a square of twice the edge."""
     n, height = 200_000, 0.5
     points = np.repeat(np.array([[0], [-height], [0]], np.float32), n, axis=1)
-    sample = light_of(SQUARE).sample(points, drawn(n, 4), towards)
+    sample = light_of(SQUARE).sample(points, drawn(n, 4))
     arriving = sample.factor * sample.to_light[1] * sample.inverse_length
     a = 1 / math.hypot(1, height)
     expected = a * math.atan(a) / math.pi
@@ -88,7 +87,7 @@ def test_the_irradiance_of_a_square_is_its_form_factor() -> None:
 def test_both_sides_send_out_the_cosine_over_the_squared_distance(side: int) -> None:
     point = np.array([[0.2], [side * 3.0], [0.1]], np.float32)
     u = drawn(1000, 5)
-    sample = light_of(SQUARE[:1]).sample(np.repeat(point, 1000, axis=1), u, towards)
+    sample = light_of(SQUARE[:1]).sample(np.repeat(point, 1000, axis=1), u)
     d2 = (sample.to_light.astype(np.float64) ** 2).sum(axis=0)
     assert np.allclose(sample.inverse_length, 1 / np.sqrt(d2), rtol=1e-6)
     assert np.allclose(sample.factor, 3 / d2**1.5, rtol=1e-5)
@@ -97,7 +96,7 @@ def test_both_sides_send_out_the_cosine_over_the_squared_distance(side: int) -> 
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_way_ends_above_the_side_that_is_seen(side: int) -> None:
     point = np.array([[0.2], [side * 0.25], [0.1]], np.float32)
-    sample = light_of(SQUARE).sample(np.repeat(point, 100, axis=1), drawn(100, 6), towards)
+    sample = light_of(SQUARE).sample(np.repeat(point, 100, axis=1), drawn(100, 6))
     above = side * (sample.to_light[1] + side * np.float32(0.25))
     assert above == pytest.approx(OFFSET, rel=0.02)
 
@@ -108,16 +107,16 @@ def test_a_triangle_sends_nothing_along_its_own_plane(height: float) -> None:
     points = np.zeros((3, 10_000), np.float32)
     points[[0, 2]] = drawn(10_000, 7)[:2]
     points[1] = np.float32(height) * OFFSET
-    assert not light_of(SQUARE).sample(points, drawn(10_000, 8), towards).factor.any()
+    assert not light_of(SQUARE).sample(points, drawn(10_000, 8)).factor.any()
 
 
 def test_the_ends_of_the_interval_choose_the_first_and_the_last_triangle() -> None:
     below_one = np.nextafter(np.float32(1), np.float32(0))
     corners = np.array([[[i, 0, 0], [i + 0.5, 0, 0], [i, 0, 1]] for i in range(1000)], float)
     u = np.array([[0, below_one], [0.5, 0.5], [0.5, 0.5]], np.float32)
-    x = light_of(corners).sample(np.zeros((3, 2), np.float32), u, towards).to_light[0]
+    x = light_of(corners).sample(np.zeros((3, 2), np.float32), u).to_light[0]
     assert x.astype(int).tolist() == [0, 999]
-    one = light_of(corners[:1]).sample(np.zeros((3, 2), np.float32), u, towards)
+    one = light_of(corners[:1]).sample(np.zeros((3, 2), np.float32), u)
     assert np.isfinite(one.to_light).all()
 
 
@@ -125,7 +124,7 @@ def test_the_groups_are_there_before_threads_take_samples(monkeypatch: pytest.Mo
     """Made for the first sample, they would be made by every thread that takes one then."""
     light = light_of(SQUARE)
     monkeypatch.setattr(mesh_light, "make_groups", None)
-    assert light.sample(np.zeros((3, 4), np.float32), drawn(4, 10), towards).factor.shape == (4,)
+    assert light.sample(np.zeros((3, 4), np.float32), drawn(4, 10)).factor.shape == (4,)
 
 
 def test_many_triangles_are_chosen_evenly_in_float32() -> None:

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 from course.building.sampled_points import NUMBERS, SPHERES
-from course.core.lights.sample import towards
 from course.core.lights.sphere import SphereLight
 from course.core.types import Functions
 from course.effects import PROJECT, Bound, Effects
@@ -44,7 +43,7 @@ def points(samples: str, center: Any, radius: float, u: Any) -> Any:
     functions = Bound(SOLUTIONS).functions(*SPHERES[samples], asked_by=("lights", 0))
     known = "lamp", center, radius, False, np.ones(3, np.float32), samples, Functions()
     light = SampledSphereLight(*known, len(u), None, functions)
-    return light.sample(np.zeros((3, u.shape[1]), np.float32), u, towards).to_light
+    return light.sample(np.zeros((3, u.shape[1]), np.float32), u).to_light
 
 
 @pytest.mark.parametrize("samples", WAYS)
@@ -88,7 +87,7 @@ def test_the_other_ways_call_what_they_called(make_scene: MakeScene) -> None:
             assert vars(light.soft_shadows) == {name: scene.effects.function(module, name)}
             # So it is that which places the points: there is no other to call.
             u = np.full((light.width, 1), 0.3, np.float32)
-            assert light.sample(np.zeros((3, 1), np.float32), u, towards).to_light.shape == (3, 1)
+            assert light.sample(np.zeros((3, 1), np.float32), u).to_light.shape == (3, 1)
 
 
 def lit(make_scene: MakeScene, integrator: str = "distribution", **light: Any) -> Scene:

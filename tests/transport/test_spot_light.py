@@ -9,7 +9,6 @@ import pytest
 
 from course import load_scene, render
 from course.compiled import library
-from course.core.lights.sample import towards
 from course.errors import SceneError
 from course.extras.light_choice import PowerChoice, power_of
 from course.extras.spot_light import SpotLight
@@ -49,7 +48,7 @@ def test_the_share_is_that_of_its_definition(inner: float, outer: float) -> None
     angles = np.linspace(0, 180, 721)
     ways = np.radians(angles)
     points = 3 * np.stack((np.sin(ways), 0 * ways, -np.cos(ways))).astype(np.float32)
-    sample = light(inner, outer).sample(points, None, towards)
+    sample = light(inner, outer).sample(points, None)
     expected = [share(angle, inner, outer) for angle in angles]
     np.testing.assert_allclose(sample.factor * 9, expected, atol=2e-4)
     np.testing.assert_allclose(sample.to_light, -points)
@@ -62,7 +61,7 @@ def test_narrow_cones_are_as_bright_as_wide_ones(inner: float, outer: float) -> 
     points = np.stack((radius, 0 * radius, np.full(121, -1, np.float32)))
     low, high = np.radians([inner, outer]) ** 2
     expected = np.clip((high - radius.astype(np.float64) ** 2) / (high - low), 0, 1) ** 4
-    found = light(inner, outer).sample(points, None, towards).factor
+    found = light(inner, outer).sample(points, None).factor
     np.testing.assert_allclose(found, expected, atol=1e-5 / outer + 1e-4)
     assert found.max() == pytest.approx(1, abs=1e-3)
 
@@ -70,7 +69,7 @@ def test_narrow_cones_are_as_bright_as_wide_ones(inner: float, outer: float) -> 
 def test_a_hard_edge_is_one() -> None:
     points = np.array([[[0.999], [0], [-1]], [[1.001], [0], [-1]]], np.float32)
     for point, lit in zip(points, (True, False), strict=True):
-        factor = light(45, 45).sample(point, None, towards).factor
+        factor = light(45, 45).sample(point, None).factor
         expected = 1 / float((point**2).sum()) if lit else 0
         np.testing.assert_allclose(factor, expected, rtol=1e-5)
 

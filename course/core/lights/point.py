@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.lights.sample import TO_THE_LIGHT, FlatLight, Light, Sample, Towards
+from course.core.lights.sample import TO_THE_LIGHT, FlatLight, Light, Sample
 from course.core.types import Floats32, Floats64
 
 
@@ -31,7 +31,7 @@ class PointLight(FlatLight):
         """See ``Light``."""
         return TO_THE_LIGHT if self.blockable else super().limit
 
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         place = self.position[:, None]
         return self.from_point(place, points, place)
@@ -51,6 +51,6 @@ class DirectionalLight(Light):
     velocity: Floats32 | None = None
     limit: float = 1e30
 
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         return Sample(self.to_light[:, None], _ONE, _ONE)

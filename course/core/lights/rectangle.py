@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from course.core.lights.sample import FlatLight, Sample, Towards
+from course.core.lights.sample import FlatLight, Sample
 from course.core.types import Floats32, Floats64, Functions
 
 
@@ -22,7 +22,7 @@ class RectangleLight(FlatLight):
     two_sided: bool = False
     visible: bool = True
 
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         assert u is not None
         on_light = self.soft_shadows.point_on_rectangle(self.corner, self.edge_u, self.edge_v, u)

@@ -1,7 +1,6 @@
 """The interface of lights: a light samples one point on itself for each shading point."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,9 +31,6 @@ class Sample:
     inverse_length: Floats32
     factor: Floats32
 
-
-Towards = Callable[..., Sample]
-"""``towards``, or its compiled form."""
 
 RAISED = np.float32(2.0**-19)
 """Height above an emitter [unit of the compiled scene] at which shadow rays end."""
@@ -69,14 +65,13 @@ class Light(ABC):
         return to_light
 
     @abstractmethod
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """One point on the light for each shading point.
 
         Parameters
         ----------
         points : (3, n) float32
         u : (width, n) float32 in [0, 1), None where the width is 0
-        towards : the function of that name below, or its compiled form
         """
 
 

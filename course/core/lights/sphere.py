@@ -9,8 +9,8 @@ from course.core.lights.sample import (
     TO_A_SURFACE,
     Light,
     Sample,
-    Towards,
     inverse_square,
+    towards,
 )
 from course.core.types import Floats32, Functions
 from course.core.vectors import dot
@@ -44,7 +44,7 @@ class SphereLight(Light):
         """See ``Light``."""
         return TO_A_POINT if not self.emitter else TO_A_SURFACE
 
-    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         assert u is not None
         if self.emitter:
