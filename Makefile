@@ -28,7 +28,7 @@ STAMP := $(VENV)/.installed
 
 help:  ## list what make can do
 	@echo "make demo    render four scenes and a page that shows them, in $(DEMO_FOLDER)"
-	@echo "make test    run every test"
+	@echo "make test    run every test; make test WING=engine, school, site or cli: those of one wing"
 	@echo "make quick   run the main laws of every folder of tests, in less than a minute"
 	@echo "make check   formatting, lint, types, layers"
 	@echo "make bench   measure, print and write JSON"
@@ -75,8 +75,15 @@ check: $(STAMP)
 test quick stress: export PYTHONDONTWRITEBYTECODE :=
 # Every core has a process already: threads of BLAS would only wait for each other.
 test quick stress: export OPENBLAS_NUM_THREADS := 1
+# Each folder of tests belongs to one wing (tests/test_wings.py).
+WING_engine := appearance casters core effects geometry imaging radiosity recording rendering scene stress transport
+WING_school := grading quizzes solutions studio
+WING_site := docs
+WING_cli := benchmarking cli
+WINGS := engine school site cli
 test: $(STAMP)
-	"$(RUN)" -m pytest -q -n auto --dist worksteal
+	$(if $(filter-out $(WINGS),$(WING)),$(error WING=$(WING) is none of $(WINGS)))
+	"$(RUN)" -m pytest -q -n auto --dist worksteal $(addprefix tests/,$(WING_$(WING)))
 
 quick: $(STAMP)
 	"$(RUN)" -m pytest -q -n auto --dist worksteal @tests/quick.txt

@@ -30,7 +30,7 @@ class Steps(ThreadedExecutor):
     def seconds_left(self) -> float:
         return self.deadline - self.now
 
-    def _serve(self, run: Execution) -> None:
+    def serve(self, run: Execution) -> None:
         raise AssertionError
 
     def run(self, work: Iterable[Work], film: Any, tick: Any = None) -> bool:
