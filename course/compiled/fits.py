@@ -191,7 +191,7 @@ def _knows(part: Any) -> bool:
 
 
 def _is_nothing(value: Any) -> bool:
-    return value is None or value is False or value == ()
+    return value is None or value is False or (isinstance(value, tuple) and not value)
 
 
 @cache
