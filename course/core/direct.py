@@ -74,17 +74,11 @@ class Reflection(Protocol):
         """Radiance (3, n) towards the viewer; the first of the sums is not None, and may be overwritten."""
 
 
-class LightChoice(Protocol):
-    """Chooses among lights, so that hits ask some of them only."""
-
-    def arriving(
-        self, ask: "Ask", hits: Hits, path: Indices | None, depth: int, draws: Draws
-    ) -> Sums:
-        """The sums of the hits, by what ``ask`` adds of the lights that are chosen."""
-
-
 Ask = Callable[[Light, Sums, Hits, Indices | None, int, Draws], Sums]
 """``DirectLight.from_light``."""
+
+LightChoice = Callable[[Ask, Hits, Indices | None, int, Draws], Sums]
+"""Chooses among lights, so that hits ask some of them only: the sums by what ``Ask`` adds of those that are chosen."""
 
 Weigh = Callable[[Hits, Candidates], Candidates | None]
 """Weighs the light of candidates, and leaves out those that need no shadow ray."""
@@ -124,7 +118,7 @@ class DirectLight:
     def from_lights(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Sums:
         """What arrives from all lights."""
         if self.choice is not None:
-            return self.choice.arriving(self.from_light, hits, path, depth, draws)
+            return self.choice(self.from_light, hits, path, depth, draws)
         sums: Sums = None, None
         for light in self.lights:
             sums = self.from_light(light, sums, hits, path, depth, draws)

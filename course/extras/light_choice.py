@@ -83,7 +83,7 @@ class LightChoice(ABC):
         ]
         return np.array(places, np.float32).T
 
-    def arriving(
+    def __call__(
         self, ask: Ask, hits: Hits, path: Indices | None, depth: int, draws: Draws
     ) -> Sums:
         """See ``course.core.direct.LightChoice``."""
