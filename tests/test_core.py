@@ -21,7 +21,7 @@ MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 32, 1820, 60
 
 FROM_RAY_TO_COLOUR = (
     *("tracer", "integrator", "camera", "hits", "direct"),
-    *("lights/sample", "lights/sphere", "materials", "scatter", "environment"),
+    *("lights/sample", "lights/sphere", "reflection", "materials", "scatter"),
 )
 MOST_LINES_TO_COLOUR = 900
 """What is to be read to understand how one camera ray becomes a colour."""

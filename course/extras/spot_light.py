@@ -31,7 +31,7 @@ class SpotLight(PointLight):
     outer: float
 
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
-        """See ``Light``; compiled stages call it, too."""
+        """See ``Light``."""
         sample = towards_in_numpy(self.position[:, None], points)
         # 1 - cos of an angle is half the square of the chord, which keeps its digits where the angle is small.
         chord = -sample.to_light * sample.inverse_length - self.axis[:, None]

@@ -160,7 +160,7 @@ class Program:
     def _warm(self, scene: Scene) -> None:
         """Render a few pixels, for much is made when the first ray is cast; never with functions of a student.
 
-        A student's functions are called by compiled stages, too, if those were ready before they were loaded.
+        A student's functions make arrays for compiled loops, too, if those were ready before they were loaded.
         """
         source = (
             scene.effects.late.source if isinstance(scene.effects, StudioEffects) else scene.effects
