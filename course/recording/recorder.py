@@ -86,6 +86,8 @@ class Recorder:
         self._wanted: Mask = np.zeros(0, np.bool_)
         self._known: list[tuple[Any, Indices]] = []
         self._block: Any = None
+        self._told: set[tuple[str, int]] = set()
+        self._asking: set[int] = set()
 
     def begin_block(self, block: Any, wanted: Mask) -> None:
         """A new block begins, of whose paths those ``wanted`` (block.size,) are recorded."""
@@ -98,6 +100,13 @@ class Recorder:
         ids = len(self.path) + np.arange(len(path))
         self.path = np.concatenate((self.path, path))
         return ids
+
+    def begin_materials(self, material: Materials, scatter: Any) -> None:
+        """Functions will be asked for all hits on a material, one after the other; ``material`` (n,) of the hits."""
+        self.material = material
+        ask = *getattr(scatter, "rough", ()), *getattr(scatter, "microfacets", ())
+        self._asking = {one.material for one in ask}
+        self._told.clear()
 
     def kept(self, ids: Indices) -> Indices:
         """Which of some rays (n,) are recorded, as indices (m,)."""
@@ -272,8 +281,14 @@ class Recorder:
         if self.material is None:
             return None
         materials, counts = np.unique(self.material, return_counts=True)
-        some = materials[counts == size]
-        return self.ids.compress(self.material == some[0]) if len(some) == 1 else None
+        some = [m for m in materials[counts == size].tolist() if m in self._asking]
+        if len(some) > 1:
+            # As many hits of each: functions are asked for one material after the other.
+            some = [m for m in some if (name, m) not in self._told]
+        if not some:
+            return None
+        self._told.add((name, some[0]))
+        return self.ids.compress(self.material == some[0])
 
 
 def _begins(part: Any, whole: Any) -> int | None:

@@ -255,7 +255,9 @@ class RecordedScatter(Scatter):
         """See ``Scatter``."""
         recorder, ids = self.recorder, self.recorder.ids
         recorder.ids, recorder.stage = ids if which is None else ids.take(which), "refracted"
-        recorder.material = hits.material if which is None else hits.material.take(which)
+        recorder.begin_materials(
+            hits.material if which is None else hits.material.take(which), self
+        )
         boundary = super().boundary(hits, which, path, depth, draws)
         recorder.ids, recorder.material = ids, None
         return boundary
