@@ -66,22 +66,23 @@ class Microfacets:
         ns : (3, n) shading normals
         way : (3, n) unit vectors
         """
-        # In float64: at a small roughness the last digits of the normals decide.
-        direction, ns = direction.astype(np.float64), ns.astype(np.float64)
+        # At a small roughness the last digits of the normals decide.
+        direction, ns, way = (_unit(vectors) for vectors in (direction, ns, way))
         wm = way - direction
         wm /= np.sqrt(np.maximum(dot(wm, wm), 1e-20))
         cosine = -dot(wm, direction)
         wo, wm = _upright(ns, -direction, wm)
         np.maximum(wo[2], FLATTEST, out=wo[2])
         dense = self.functions.visible_normal_pdf(wo, wm, self.alpha)
-        found: Floats32 = np.where(cosine > FLATTEST, dense / (4 * np.maximum(cosine, FLATTEST)), 0)
+        found: Floats32 = np.where(cosine > 0, dense / (4 * np.maximum(cosine, 1e-30)), 0)
         return found.astype(np.float32)
 
     def brdf(self, direction: Floats32, ns: Floats32, way: Floats32) -> Floats32:
         """A metal's BRDF (3, n) [1/sr]; arrays as in ``density``."""
+        direction, ns, way = (_unit(vectors) for vectors in (direction, ns, way))
         vectors = _upright(ns, -direction, way)
         found: Floats32 = self.functions.brdf(*vectors, self.alpha, self.n, self.k)
-        return found
+        return found.astype(np.float32)
 
     @property
     def peak(self) -> float:
@@ -99,6 +100,13 @@ class Microfacets:
         outside, inside = reflectance(cos, self.n, clear)[0], reflectance(cos, 1 / self.n, clear)[0]
         share: Floats32 = np.clip(np.where(entering, outside, inside), 0, 1)
         return share
+
+
+def _unit(vectors: Floats32) -> Floats64:
+    """Vectors (3, n) in float64: halfway between grazing directions that aren't as long lies nothing upright."""
+    exact = vectors.astype(np.float64)
+    exact /= np.sqrt(dot(exact, exact))
+    return exact
 
 
 def _upright(ns: Floats, *vectors: Floats) -> list[Any]:
