@@ -57,7 +57,7 @@ class Microfacets:
         np.maximum(wo[2], FLATTEST, out=wo[2])
         return direction, turned(ns, *self.functions.sample_visible_normal(wo, self.alpha, u))
 
-    def density(self, direction: Floats32, ns: Floats32, way: Floats32) -> Floats32:
+    def density(self, direction: Floats, ns: Floats, way: Floats) -> Floats32:
         """How dense the directions (n,) are [1/sr] that a metal's microfacets mirror rays to.
 
         Parameters
@@ -77,7 +77,7 @@ class Microfacets:
         found: Floats32 = np.where(cosine > 0, dense / (4 * np.maximum(cosine, 1e-30)), 0)
         return found.astype(np.float32)
 
-    def brdf(self, direction: Floats32, ns: Floats32, way: Floats32) -> Floats32:
+    def brdf(self, direction: Floats, ns: Floats, way: Floats) -> Floats32:
         """A metal's BRDF (3, n) [1/sr]; arrays as in ``density``."""
         direction, ns, way = (_unit(vectors) for vectors in (direction, ns, way))
         vectors = _upright(ns, -direction, way)
@@ -102,7 +102,7 @@ class Microfacets:
         return share
 
 
-def _unit(vectors: Floats32) -> Floats64:
+def _unit(vectors: Floats) -> Floats64:
     """Vectors (3, n) in float64: halfway between grazing directions that aren't as long lies nothing upright."""
     exact = vectors.astype(np.float64)
     exact /= np.sqrt(dot(exact, exact))

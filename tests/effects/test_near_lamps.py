@@ -99,7 +99,7 @@ def edge_on(
     light = {"type": "rectangle", "radiance": 3, "samples": samples, "corner": corner.tolist()}
     light |= {"edge_u": u.tolist(), "edge_v": v.tolist()}
     scene = make_scene(
-        camera={"eye": [0.3, 2, 0.4], "look_at": [0, 0, 0], "vertical_fov": 1e-6},
+        camera={"eye": [0.3, 2, 0.4], "look_at": [0, 0, 0], "vertical_fov": 1e-9},
         film={"width": 16, "height": 16},
         sampler={"type": "sobol", "samples": 64},
         materials={"white": {"color": 1}},
@@ -121,14 +121,17 @@ def edge_on(
     return scene, 3 * abs(total) / 2 / math.pi
 
 
-@pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-5, 1e-6])
+@pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-6, 1e-7])
 @pytest.mark.parametrize("turned", TURNED, ids=["upright", "turned"])
 @pytest.mark.parametrize("samples", ["point", "grid 64"])
 @pytest.mark.usefixtures("each_form")
 def test_a_rectangle_seen_edge_on(
     make_scene: MakeScene, samples: str, turned: Array, height: float
 ) -> None:
-    """It had been up to 44 times as bright, by rounding of what is left of the way along it; or black."""
+    """It had been up to 44 times as bright, by rounding of what is left of the way along it; or black.
+
+    The hit is at the origin, and isn't rounded.
+    """
     scene, right = edge_on(make_scene, height, turned, samples)
     found = render(scene, spp=64 if samples == "point" else 1).linear
-    assert found.mean(dtype=np.float64) == pytest.approx(right, rel=0.02 + 5e-8 / height, abs=0)
+    assert found.mean(dtype=np.float64) == pytest.approx(right, rel=0.02, abs=0)
