@@ -1,4 +1,4 @@
-"""Reflected and refracted rays of sixteen hits, compiled by Numba; a part of the fused loop.
+"""Reflected and refracted rays of a packet's hits, compiled by Numba; a part of the fused loop.
 
 See ``course.core.scatter`` and ``course.core.gloss``; the functions of ``glossy`` keep their order of arithmetic here.
 """
@@ -7,7 +7,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from course.compiled import numpy_kernels
 from course.compiled.lanes import (
@@ -43,7 +42,7 @@ from course.compiled.lanes import (
     U,
 )
 from course.compiled.number_kernels import circle, draw
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.compiled.packet_kernels import TO, WIDTH
 from course.core.types import Floats32, Indices, Mask, Media, Numbers
 

@@ -3,9 +3,8 @@
 import math
 
 import numpy as np
-from numba import njit
 
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.core.lights.sample import CLOSEST
 
 _NOTHING, _HALF, _ONE, _TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)

@@ -2,9 +2,9 @@
 
 import sys
 
-from numba import njit, types
+from numba import types
 
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 
 _WINDOWS = sys.platform == "win32"
 _MONOTONIC = 6 if sys.platform == "darwin" else 1

@@ -1,9 +1,8 @@
 """Radiance of one direction in a cube map, compiled by Numba; the functions of ``cube_map``, in their order."""
 
 import numpy as np
-from numba import njit
 
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 
 _NOTHING, _HALF, _ONE = np.float32(0), np.float32(0.5), np.float32(1)
 

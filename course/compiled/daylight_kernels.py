@@ -1,4 +1,4 @@
-"""Light that arrives from the environment at sixteen hits, compiled by Numba; a part of the fused loop.
+"""Light that arrives from the environment at a packet's hits, compiled by Numba; a part of the fused loop.
 
 It does what ``course.extras.sky`` and ``ProductSampling.sample`` do, in the same order and so to the same bits.
 """
@@ -7,7 +7,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from course.compiled.clock_kernels import nanoseconds
 from course.compiled.cube_kernels import look_up
@@ -33,7 +32,7 @@ from course.compiled.lanes import (
 )
 from course.compiled.number_kernels import draw
 from course.compiled.occlusion_kernels import occlude
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.compiled.packet_kernels import WIDTH
 from course.core.types import Floats32, Mask, Numbers
 from course.extras.sky import FAR

@@ -1,4 +1,4 @@
-"""The fused loop: from the random numbers of paths to their radiance, sixteen at a time, compiled by Numba.
+"""The fused loop: from the random numbers of paths to their radiance, a packet at a time, compiled by Numba.
 
 It does what ``course.core.integrator`` and its stages do, in the same order of arithmetic and so to the same bits; but
 what the stages hand on in arrays stays in the processor's nearest cache, and no step waits for the interpreter's lock.
@@ -7,7 +7,6 @@ what the stages hand on in arrays stays in the processor's nearest cache, and no
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from course.compiled import numpy_kernels
@@ -54,7 +53,7 @@ from course.compiled.lanes import (
 )
 from course.compiled.number_kernels import ask_for_next, find_pixels, look
 from course.compiled.occlusion_kernels import keep, shift, unshift
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.compiled.packet_kernels import (
     GEOMETRY,
     PRIMITIVE,
@@ -64,7 +63,7 @@ from course.compiled.packet_kernels import (
     U,
     V,
     begin,
-    intersect16,
+    intersect,
 )
 from course.compiled.packets import COHERENT
 from course.compiled.path_kernels import bounce
@@ -221,7 +220,7 @@ def _query(scene, mask, arguments, s, whole):
         s[TFAR + i] = _FAR if whole[mask + i] else s[TFAR + i]
         lanes[GEOMETRY + i] = -1
     if scene.scenes[0]:
-        intersect16(whole[mask:].ctypes.data, scene.scenes[0], s.ctypes.data, arguments.ctypes.data)
+        intersect(whole[mask:].ctypes.data, scene.scenes[0], s.ctypes.data, arguments.ctypes.data)
     for i in range(WIDTH):
         if whole[mask + i]:
             hit = lanes[GEOMETRY + i] >= 0
@@ -236,7 +235,7 @@ def _query(scene, mask, arguments, s, whole):
             continue
         for i in range(WIDTH):
             lanes[GEOMETRY + i] = -1
-        intersect16(others.ctypes.data, scene.scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
+        intersect(others.ctypes.data, scene.scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
         for i in range(WIDTH):
             if lanes[GEOMETRY + i] >= 0 and whole[OTHERS + i]:
                 whole[HIT + i] = -1

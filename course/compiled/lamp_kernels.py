@@ -1,4 +1,4 @@
-"""Direct light at sixteen hits, compiled by Numba; a part of the fused loop.
+"""Direct light at a packet's hits, compiled by Numba; a part of the fused loop.
 
 The functions of ``soft_shadows`` place points on lights here, in the same order of arithmetic; see
 ``course.core.direct`` and ``course.core.lights``.
@@ -8,7 +8,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from course.compiled import numpy_kernels
 from course.compiled.cap_kernels import towards_cap
@@ -50,7 +49,7 @@ from course.compiled.lanes import (
 from course.compiled.mesh_kernels import Meshes, towards_triangles
 from course.compiled.number_kernels import circle, draw
 from course.compiled.occlusion_kernels import occlude
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.compiled.packet_kernels import TFAR, TO, WIDTH
 from course.compiled.packet_kernels import U as HIT_U
 from course.compiled.packet_kernels import V as HIT_V

@@ -1,4 +1,4 @@
-"""Where the fused loop keeps the numbers of sixteen paths: rows of 16 float32 in one array, and of 16 int32 in another.
+"""Where the fused loop keeps the numbers of a packet's paths: rows of WIDTH float32 in one array, and of as many int32.
 
 Three packets of Embree's come first (``packet_kernels`` has their layout): the paths' rays, their shadow rays, and
 those from a facet up to the round surface above it. All offsets are constants, so that the compiler sees which rows are
@@ -7,6 +7,7 @@ apart.
 
 from course.compiled.occlusion_kernels import ROWS
 from course.compiled.packet_kernels import TFAR, TO, WIDTH
+from course.extras.mesh_groups import GROUPS
 
 PACKET = ROWS * WIDTH
 RAY, SHADOW, ABOVE = 0, PACKET, 2 * PACKET
@@ -27,8 +28,8 @@ BENT, ETA = SHARE + WIDTH, SHARE + 2 * WIDTH
 PLANE, EDGES, CORNERS = (_FIRST + (54 + number) * WIDTH for number in (0, 8, 15))
 """Columns of the hit triangles in ``Triangles``."""
 STRENGTH = _FIRST + 78 * WIDTH
-"""What each group of a light of triangles sends to a point: two rows."""
-ALL_ROWS = 3 * ROWS + 54 + 26
+"""What each group of a light of triangles sends to a point."""
+ALL_ROWS = 3 * ROWS + 54 + 24 + -(-GROUPS // WIDTH)
 
 _integers = (number * WIDTH for number in range(14))
 (

@@ -4,15 +4,22 @@ This is the one file that calls Embree without embreex. Where library or Numba i
 """
 
 import ctypes
+import os
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from course.casters.choice import chosen
+from course.errors import CourseError
 
-QUERIES = ("rtcIntersect16", "rtcOccluded16")
-"""What the compiled loops call by name."""
+NATIVE = {16: 34, 8: 33, 4: 32}
+"""Rays of a packet -> the property of Embree's device that is not 0 where it follows so many at once."""
+
+WIDTH_VARIABLE = "COURSE_PACKET_WIDTH"
+"""Environment variable: 4, 8 or 16 rays of a packet in the place of what suits the processor; pictures are the same."""
+
+_KINDS = ("rtcIntersect", "rtcOccluded")
 
 
 @cache
@@ -52,7 +59,8 @@ def library() -> ctypes.CDLL | None:
         "rtcReleaseGeometry": (None, [pointer]),
         "rtcCommitScene": (None, [pointer]),
         "rtcReleaseScene": (None, [pointer]),
-        **dict.fromkeys(QUERIES, (None, [pointer] * 4)),
+        "rtcGetDeviceProperty": (ctypes.c_ssize_t, [pointer, ctypes.c_int]),
+        **{f"{kind}{n}": (None, [pointer] * 4) for kind in _KINDS for n in NATIVE},
     }
     try:
         for name, (result, arguments) in declarations.items():
@@ -71,11 +79,35 @@ def device() -> int:
     return int(embree.rtcNewDevice(None))
 
 
+@cache
+def width() -> int:
+    """Rays of a packet: as many as Embree follows at once on this processor, which follows more of them one by one.
+
+    Raises CourseError if ``WIDTH_VARIABLE`` is none of them.
+    """
+    if chosen() == "numba":
+        # As its stand-in takes them.
+        return 16
+    if wanted := os.environ.get(WIDTH_VARIABLE):
+        if wanted not in map(str, NATIVE):
+            raise CourseError(f"{WIDTH_VARIABLE}={wanted}: expected 4, 8 or 16")
+        return int(wanted)
+    embree = library()
+    assert embree is not None
+    native = (n for n, number in NATIVE.items() if embree.rtcGetDeviceProperty(device(), number))
+    return next(native, min(NATIVE))
+
+
+def queries() -> tuple[str, ...]:
+    """What the compiled loops call by name: nearest hits, and whether anything is in the way."""
+    return tuple(f"{kind}{width()}" for kind in _KINDS)
+
+
 def name_queries() -> None:
     """Let compiled loops find the queries by their names, which are Embree's for its stand-in too."""
     import llvmlite.binding
 
-    for name, address in zip(QUERIES, _addresses(), strict=True):
+    for name, address in zip(queries(), _addresses(), strict=True):
         llvmlite.binding.add_symbol(name, address)
 
 
@@ -85,5 +117,5 @@ def _addresses() -> tuple[int, ...]:
 
         return cast_kernels.intersect.address, cast_kernels.occlude.address
     embree = library()
-    addresses = [ctypes.cast(getattr(embree, name), ctypes.c_void_p).value for name in QUERIES]
+    addresses = [ctypes.cast(getattr(embree, name), ctypes.c_void_p).value for name in queries()]
     return tuple(address or 0 for address in addresses)

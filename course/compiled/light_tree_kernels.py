@@ -5,9 +5,9 @@ bits. What hangs on a node alone, such as its radius and the cosine of its cone,
 """
 
 import numpy as np
-from numba import njit, types
+from numba import types
 
-from course.compiled.options import COLUMNS, LEAN, ROW
+from course.compiled.options import COLUMNS, LEAN, ROW, njit
 
 WIDTH = 16
 """Walks that go together."""

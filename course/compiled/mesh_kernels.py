@@ -6,10 +6,9 @@ In the same order of arithmetic as ``MeshLight.sample`` and ``Groups.choose``.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from course.compiled.lanes import FACTOR, INVERSE, POINT, SHADOW_TO, STRENGTH, U
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.compiled.packet_kernels import WIDTH
 from course.core.lights.sample import CLOSEST
 from course.core.types import Floats32, Indices

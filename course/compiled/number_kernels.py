@@ -1,17 +1,17 @@
-"""Random numbers and camera rays of sixteen paths, compiled by Numba; parts of the fused loop."""
+"""Random numbers and camera rays of a packet's paths, compiled by Numba; parts of the fused loop."""
 
 from typing import NamedTuple
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from course.compiled import numpy_kernels
 from course.compiled.lanes import JITTER, PATH, PIXEL, SAMPLE, TIME, A, B, C, U
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.compiled.packet_kernels import TO, WIDTH
 from course.core.types import Floats32, Words
 from course.extras.samplers.hashing import FIRST, GOLDEN, SECOND
@@ -110,7 +110,7 @@ def _ask_for(_context, _address):
 
 @njit(**LEAN)
 def ask_for_next(numbers, path, pairs):
-    """Ask for the points that sixteen paths from here will draw of the first pairs, while others are being followed.
+    """Ask for the points that a packet's paths from here will draw of the first pairs, while others are being followed.
 
     The table is larger than the second-level cache, and each pixel has another row of it: without this each draw waits
     for memory.
@@ -145,14 +145,14 @@ def _draw_row(numbers, line, order, scramble, i, whole):
 
 @njit(**LEAN)
 def _draw_next(points, first, scramble, s, row):
-    """The numbers of sixteen samples that follow each other."""
+    """The numbers of a packet's samples that follow each other."""
     for i in range(WIDTH):
         s[row + i] = _unit(points[first + np.uint64(i)] ^ scramble)
 
 
 @njit(**LEAN)
 def _follow(whole):
-    """True if the samples of sixteen paths follow each other."""
+    """True if the samples of a packet's paths follow each other."""
     follow = True
     for i in range(1, WIDTH):
         follow &= whole[SAMPLE + i] == whole[SAMPLE] + i

@@ -10,10 +10,10 @@ from typing import Any
 
 import llvmlite.binding
 import numpy as np
-from numba import njit, types
+from numba import types
 from numpy.typing import NDArray
 
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 
 _FUNCTIONS, _DATA = 32, 40
 """Where a ufunc has the table of its loops, and of what they are handed, in bytes from its beginning."""

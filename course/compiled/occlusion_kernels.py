@@ -5,10 +5,10 @@ may meet, from origins that are shifted into the mover's frame.
 """
 
 import numpy as np
-from numba import njit, types
+from numba import types
 
-from course.compiled.options import LEAN
-from course.compiled.packet_kernels import TFAR, TO, WIDTH, occluded16
+from course.compiled.options import LEAN, njit
+from course.compiled.packet_kernels import TFAR, TO, WIDTH, occluded
 
 # Rows of our own behind those of the packet: origins that are not shifted, 1 / direction, time.
 _ORIGIN, _INVERSE, _TIME = 24 * WIDTH, 27 * WIDTH, 30 * WIDTH
@@ -83,9 +83,9 @@ def occlude(scenes, velocity, boxes, time, first, count, s, asked, valid, argume
     asked, valid : (16,) int32, -1 for the rays that are asked; the second is overwritten
     """
     if scenes[0]:
-        occluded16(asked.ctypes.data, scenes[0], s.ctypes.data, arguments.ctypes.data)
+        occluded(asked.ctypes.data, scenes[0], s.ctypes.data, arguments.ctypes.data)
     if len(velocity):
         keep(s, time, first, count)
         for k in range(len(velocity)):
             if shift(s, velocity[k], boxes[k], asked, valid):
-                occluded16(valid.ctypes.data, scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
+                occluded(valid.ctypes.data, scenes[1 + k], s.ctypes.data, arguments.ctypes.data)

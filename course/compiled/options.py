@@ -1,10 +1,14 @@
 """What the loops that Numba compiles have in common; imported by files named ``..._kernels`` alone."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numba
 from numba import types
 
 from course.casters.older_loops import forget_older_loops
+from course.compiled.library import width
 
 COLUMNS = types.float32[:, ::1]
 """(k, N) float32, C-contiguous."""
@@ -17,6 +21,17 @@ OBJECTS = types.int8[::1]
 
 OPTIONS = {"nogil": True, "cache": True, "error_model": "numpy"}
 """Without the interpreter lock, kept on disk, and with divisions by zero as NumPy has them."""
+
+
+def njit(*signature: Any, **options: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Numba's ``njit``; on disk a loop has the packets' width in its name, for it is another loop in every width."""
+
+    def compiled(function: Callable[..., Any]) -> Any:
+        function.__qualname__ += f"_{width()}"
+        return numba.njit(*signature, **options)(function)
+
+    return compiled
+
 
 _INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 """Neither Python nor C calls such parts. An entrance would take apart every array: a sixth of the time to compile."""

@@ -1,14 +1,14 @@
-"""Packets of 16 rays for Embree, compiled by Numba.
+"""Packets of WIDTH rays for Embree, compiled by Numba.
 
-Layout of a packet (Embree 4's rtcore_ray.h): rows of 16 floats or integers, origin, tnear, direction, time, tfar, mask,
-id, flags; then of the hit Ng, u, v, primID, geomID, instID.
+Layout of a packet (Embree 4's rtcore_ray.h): rows of WIDTH floats or integers, origin, tnear, direction, time, tfar,
+mask, id, flags; then of the hit Ng, u, v, primID, geomID, instID.
 """
 
-from numba import njit, types
+from numba import types
 
 from course.compiled import packets
-from course.compiled.library import name_queries
-from course.compiled.options import LEAN
+from course.compiled.library import name_queries, queries
+from course.compiled.options import LEAN, njit
 
 name_queries()
 
@@ -17,8 +17,7 @@ TO, TFAR, MASK, U, V, PRIMITIVE, GEOMETRY = (row * WIDTH for row in (4, 8, 9, 15
 """Where rows begin in a packet that is one array: the direction's first, and others."""
 
 _query = types.void(*[types.uintp] * 4)
-intersect16 = types.ExternalFunction("rtcIntersect16", _query)
-occluded16 = types.ExternalFunction("rtcOccluded16", _query)
+intersect, occluded = (types.ExternalFunction(name, _query) for name in queries())
 
 
 @njit(**LEAN)

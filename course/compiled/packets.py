@@ -1,8 +1,8 @@
-"""Sixteen rays at once through Embree's own interface: an extra, several times as fast where neighbours go together.
+"""Several rays at once through Embree's own interface: an extra, several times as fast where neighbours go together.
 
-embreex sends one ray after the other. The library that it brings along can also take packets of 16, whose rays share
-the way down the hierarchy and the width of the processor. Numba compiles the loop that fills the packets; the answers
-are the same, bit for bit, but for rays that meet an edge between two triangles at one and the same distance.
+embreex sends one ray after the other. The library that it brings along can also take packets of 4, 8 or 16 rays, which
+share the way down the hierarchy and the width of the processor. Numba compiles the loop that fills the packets; the
+answers are the same, bit for bit, but for rays that meet an edge between two triangles at one and the same distance.
 
 The loops are in ``packet_kernels``. Like all files of that ending it imports Numba (``pip install .[fast]``). Where
 Numba or Embree's library is missing, ``available`` says so. Where embreex is missing, the hierarchy that Numba compiles
@@ -15,17 +15,17 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from course.casters.choice import chosen
-from course.compiled.library import device, library
+from course.compiled.library import device, library, queries, width
 from course.core.accelerator import NO_HIT, Intersections, StaticAccelerator, no_hits
 from course.core.types import Floats32, Numbers
 from course.extras.boxes import roomy_box
 
-WIDTH = 16
+WIDTH = width()
 """Rays of a packet."""
 
 ALL_ROWS = 24
 """Of a packet: hits end with the instances' numbers, one row or two by how Embree was built; more room does no harm.
-Shadow rays have none, but where Embree's shadow queries don't take 16 rays at once (no AVX-512), they read and write
+Shadow rays have none, but where Embree's shadow queries don't take as many rays at once, they read and write
 these rows, too."""
 
 _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
@@ -35,10 +35,10 @@ COHERENT = 1 << 16
 
 
 def aligned(rows: int) -> Any:
-    """Rows of sixteen float32 in one array, at an address that 64 divides, as Embree wants it."""
-    line = 4 * WIDTH
-    memory = np.zeros((rows + 1) * line, np.uint8)
-    return memory[-memory.ctypes.data % line :][: rows * line].view(np.float32)
+    """Rows of WIDTH float32 in one array, at an address that 64 divides: Embree wants whole rows."""
+    size = 4 * WIDTH * rows
+    memory = np.zeros(size + 64, np.uint8)
+    return memory[-memory.ctypes.data % 64 :][:size].view(np.float32)
 
 
 class PacketScene:
@@ -102,7 +102,7 @@ class EmbreePackets(PacketScene):
         found = no_hits(n := direction.shape[1])
         packet = aligned(ALL_ROWS).reshape(ALL_ROWS, WIDTH)
         whole, valid = packet.view(np.int32), aligned(1).view(np.int32)
-        arguments = np.zeros(16, np.uint32)
+        arguments, query = np.zeros(16, np.uint32), getattr(self._library, queries()[0])
         # Of Embree's features all.
         arguments[1] = 0xFFFFFFFF
         for first in range(0, n, WIDTH):
@@ -112,7 +112,7 @@ class EmbreePackets(PacketScene):
             packet[4:7], packet[8] = direction[:, some], NO_HIT
             whole[9] = whole[18] = valid[:] = -1
             addresses = [array.ctypes.data for array in (valid, packet, arguments)]
-            self._library.rtcIntersect16(addresses[0], self.scene, *addresses[1:])
+            query(addresses[0], self.scene, *addresses[1:])
             hit = whole[18] >= 0
             found.triangle[some] = np.where(hit, whole[17], -1)
             found.u[some], found.v[some] = np.where(hit, packet[15:17], 0)

@@ -1,4 +1,4 @@
-"""The one ray by which a path goes on from a hit, for sixteen hits, compiled by Numba; a part of the fused loop.
+"""The one ray by which a path goes on from a hit, for a packet's hits, compiled by Numba; a part of the fused loop.
 
 See ``course.extras.path_bounce``; the functions of ``path_tracing`` keep their order of arithmetic here.
 """
@@ -7,7 +7,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from course.compiled.bounce_kernels import (
     above,
@@ -36,7 +35,7 @@ from course.compiled.lanes import (
     U,
 )
 from course.compiled.number_kernels import circle, draw
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 from course.compiled.packet_kernels import WIDTH
 from course.core.types import Floats32, Mask
 from course.extras.path_bounce import DIFFUSE, LEAST, MIRRORED, REFRACTED

@@ -1,9 +1,8 @@
 """The point and the shading normal of one hit, compiled by Numba; see ``course.core.hits``."""
 
 import numpy as np
-from numba import njit
 
-from course.compiled.options import LEAN
+from course.compiled.options import LEAN, njit
 
 _LEAST = np.float32(1e-20)
 _NOTHING, _ONE = np.float32(0), np.float32(1)

@@ -384,6 +384,10 @@ def test_an_object_that_is_a_light_has_a_material_of_its_own(
     _assert_equal(exported, read(tmp_path / "scene"))
 
 
+ABOVE = {"transform": [{"translate": [0, 1.7, 0]}]}
+"""Off the other objects, whose planes a lamp's would lie in."""
+
+
 @pytest.mark.parametrize(
     ("lamp", "material", "said"),
     [
@@ -393,7 +397,10 @@ def test_an_object_that_is_a_light_has_a_material_of_its_own(
         (BALL, {"color": 0.1, "emission": 1}, "materials.neon of a light reflects"),
         (BALL, {"color": 0, "mirror": 0.1, "emission": 1}, "materials.neon of a light reflects"),
         (BALL, {"color": 0, "dielectric": {}, "emission": 1}, "materials.neon of a light reflects"),
-        *[({"shape": shape}, BLACK, None) for shape in ("box", "cylinder", "cone", "torus")],
+        *[
+            ({"shape": shape} | ABOVE, BLACK, None)
+            for shape in ("box", "cylinder", "cone", "torus")
+        ],
     ],
 )
 def test_lamps_that_mitsuba_has_and_has_not(
@@ -422,7 +429,7 @@ def test_a_body_encloses_something_if_it_is_closed_and_faces_outwards() -> None:
 
 
 def test_an_object_that_only_glows_is_refused_beside_a_light(make_scene: MakeScene) -> None:
-    objects = [FLOOR, TUBE, {**TUBE, "name": "other"}]
+    objects = [FLOOR, TUBE, {**TUBE, "name": "other"} | ABOVE]
     with pytest.raises(NotExportableError, match=r"materials\.neon\.emission is not exported"):
         export(_lamp_scene(make_scene, objects=objects), *SIZE)
 

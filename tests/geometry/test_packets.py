@@ -60,19 +60,19 @@ def test_triangles_are_built_once(accelerator: StaticAccelerator) -> None:
     assert tables.scenes.tolist() == tables.blockers.tolist() == [built.scene]
 
 
-@pytest.mark.parametrize("query", library.QUERIES)
+@pytest.mark.parametrize("query", library.queries())
 def test_embree_keeps_to_the_rows_of_a_packet(accelerator: StaticAccelerator, query: str) -> None:
-    """Shadow queries, too, touch the rows of hits where the processor has no AVX-512."""
-    guard = np.float32(12345)
-    memory = np.full((packets.ALL_ROWS + 41, 16), guard, np.float32)
-    memory = memory.reshape(-1)[-memory.ctypes.data % 64 // 4 :][: (packets.ALL_ROWS + 40) * 16]
-    packet = memory.reshape(-1, 16)
-    packet[:3], packet[4:7] = rays(16, 5)
+    """Shadow queries, too, touch the rows of hits where the processor is narrower."""
+    guard, width = np.float32(12345), packets.WIDTH
+    memory = np.full((packets.ALL_ROWS + 57, width), guard, np.float32)
+    memory = memory.reshape(-1)[-memory.ctypes.data % 64 // 4 :][: (packets.ALL_ROWS + 40) * width]
+    packet = memory.reshape(-1, width)
+    packet[:3], packet[4:7] = rays(width, 5)
     packet[3], packet[7], packet[8] = 0, 0, np.inf
     whole = packet.view(np.int32)
     whole[9], whole[10:12], whole[18] = -1, 0, -1
     valid = np.full(32, -1, np.int32)
-    valid = valid[-valid.ctypes.data % 64 // 4 :][:16]
+    valid = valid[-valid.ctypes.data % 64 // 4 :][:width]
     arguments = np.zeros(16, np.uint32)
     arguments[1] = 0xFFFFFFFF
     scene = packets.packets_of(accelerator)
