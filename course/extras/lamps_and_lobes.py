@@ -1,4 +1,4 @@
-"""Lamps that glossy surfaces reflect, looked for in two ways at once: by points on the lamp, and by rays of the lobe.
+"""Multiple importance sampling of lamps in glossy surfaces: by points on the lamp and by rays of the lobe at once.
 
 A small lamp is seldom met by directions of a wide lobe, and a narrow lobe seldom shows a point of a large lamp. So both
 are tried, and each counts by its weight (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo
