@@ -96,6 +96,8 @@ LANTERNS = {
     "objects.3.name": "cone",
     "materials.ball.emission": [1.6, 0.5, 0.3],
     "materials.near.emission": [4, 2.6, 0.6],
+    # A lamp that stands on the floor would lie in its plane.
+    "objects.3.transform": [{"translate": [1.3, 0.46, 0.8]}],
 }
 """Two that glow, and either lights the others where it is one of the lights."""
 COARSE = {"film.width": 66, "film.height": 44, "sampler.samples": 1, "lights.1.radius": 0, **PLAIN}

@@ -1,7 +1,6 @@
 """The cells that physics judges: what is wrong in the renderer's own formulae is told by them, in either form of it."""
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from benchmarks.stress.cells import Cell, tame
 from benchmarks.stress.running import judge_some
 from course.core import scatter
 from course.extras import conductors, rough_glass
-from tests.forms import in_both_forms, needs_numba
+from tests.forms import in_both_forms
 
 
 def made_of(substance: str, beyond: str = "darker") -> list[Cell]:
@@ -57,30 +56,6 @@ def test_a_wrong_reflectance_of_glass_is_told(
     monkeypatch.setattr(scatter, "fresnel_and_cos_t", schlick)
     # The two formulae meet at some angle, which for the coloured glass is 75 degrees.
     assert failed(cells, compiled=False) >= max(1, len(cells) - 1)
-
-
-@needs_numba
-@pytest.mark.parametrize("substance", ["glass", "thin", "diamond", "coloured glass"])
-def test_a_wrong_reflectance_of_glass_is_told_of_the_compiled_loops(
-    substance: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from course.compiled import scatter_kernels
-
-    right: Callable[..., None] = scatter_kernels.divide
-
-    def wrong(*arguments: Any) -> None:
-        right(*arguments)
-        reflected, passed = arguments[6:8]
-        change = 0.01 * reflected * passed
-        reflected += change
-        passed -= change
-
-    cells = refracting(substance)
-    monkeypatch.setattr(scatter_kernels, "divide", wrong)
-    # The fused loop has the bits of the batches, which another test holds.
-    monkeypatch.setattr("course.compiled.engine.fits", lambda _tracer: False)
-    assert failed(cells, compiled=True) == len(cells)
-    assert failed(cells, compiled=False) == 0
 
 
 @pytest.mark.parametrize("substance", ["gold", "chromium"])

@@ -1,0 +1,15 @@
+"""Double precision, whatever comes."""
+
+import numpy as np
+
+FUNCTION = "ball_by_polar"
+CAUGHT_BY = "contract"
+MISTAKE = "ball-float64"
+SAYS = "Your result is float64 for float32 numbers; it should have the dtype of u."
+
+_right = ball_by_polar
+
+
+def ball_by_polar(u):
+    """A polar warp."""
+    return _right(u).astype(np.float64)

@@ -1,0 +1,18 @@
+"""The angle is in degrees, its cosine takes radians."""
+
+import numpy as np
+
+FUNCTION = "disk_by_polar"
+CAUGHT_BY = "smooth"
+MISTAKE = "disk-degrees"
+SAYS = "Your angle is in degrees, but cosine and sine take radians: neighbouring u go to places far apart."
+
+_right = disk_by_polar
+
+
+def disk_by_polar(u):
+    """A polar warp."""
+    _check_batch("u", u, 2)
+    turned = u.copy()
+    turned[1] = turned[1] * u.dtype.type(180 / np.pi) % 1
+    return _right(turned)
