@@ -1,4 +1,4 @@
-"""Packets of 4, 8 and 16 rays make the same picture; each width in a process of its own."""
+"""Packets of 4, 8 and 16 rays make the same picture; each width that isn't this process's in one of its own."""
 
 import os
 from hashlib import sha256
@@ -26,7 +26,7 @@ print(library.width(), sha256(picture.linear.tobytes()).hexdigest(), picture.rec
 """
 
 
-@pytest.mark.parametrize("width", NATIVE)
+@pytest.mark.parametrize("width", sorted({*NATIVE} - {library.width()}))
 def test_every_width_makes_the_picture_of_single_rays(width: int) -> None:
     done = python("-c", PROGRAM, SCENE, environment={**os.environ, WIDTH_VARIABLE: str(width)})
     single = render(load_scene(SCENE), spp=4, size=(30, 20), sampler="sobol", compiled=False)
