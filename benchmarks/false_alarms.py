@@ -12,6 +12,7 @@ from itertools import combinations
 import numpy as np
 
 from benchmarks.figures import Figure
+from benchmarks.peer_cases import EFFECTS
 from course import load_scene, render
 from course.benchmarking.tables import Table, print_tables
 from course.comparing.comparison import SIGNIFICANCE, compare
@@ -59,13 +60,7 @@ KINDS = (
     *map(
         Kind,
         (
-            "supersampling",
-            "soft_shadows",
-            "glossy",
-            "thin_lens",
-            "motion_blur",
-            "cube_map",
-            "path_tracing",
+            *EFFECTS,
             "cornell_box",
             "mesh_light",
             "multiple_importance",

@@ -101,12 +101,12 @@ def render(
             loops = choose_loops(scene, settings, bound, compiled, time_limit, closed)
             executor = pool = Pool(loops.tracer, threads or default_threads())
             if loops.take_over is not None:
-                closed.enter_context(loops.take_over(pool))
+                closed.enter_context(closing(loops.take_over(pool)))
         else:
             from course.cluster.executor import Cluster
 
-            loops, packets = loops_of_cluster(scene, settings, bound, compiled)
-            executor = Cluster(address, scene, settings, packets)
+            loops = loops_of_cluster(scene, settings, bound, compiled)
+            executor = Cluster(address, scene, settings, loops.film)
         closed.enter_context(closing(executor))
         display = developing(scene, settings, bound)
         film, schedule = mode.make(replace(job, compiled=loops.film), loops.tracer, bound)

@@ -114,8 +114,5 @@ def nearest(world: FullWorld, origin: Floats64, way: Floats64, time: Floats64) -
     for mover in accelerator.movers:
         shifted = start - mover.velocity.reshape(3, 1) * time.astype(np.float32)
         other = mover.accelerator.intersect(shifted, toward, stats, limit=found.t)
-        hit = np.flatnonzero(other.triangle >= 0)
-        found.triangle[hit] = other.triangle[hit] + np.int32(mover.first)
-        for mine, theirs in ((found.u, other.u), (found.v, other.v), (found.t, other.t)):
-            mine[hit] = theirs[hit]
+        accelerator.take(found, other, mover)
     return found

@@ -53,9 +53,6 @@ _NO_NUMBERS = np.empty((0, 0), np.float32)
 _NO_FACES = np.empty((6, 0, 0, 3), np.float32)
 _NOWHERE, _NO_BOXES = np.zeros(3, np.float32), np.empty((0, 3), np.float32)
 
-OF_PATH = frozenset(("pixel", "lens", "time"))
-"""Names of the dimensions that a path draws once."""
-
 SMALLEST = 16384
 """Camera rays in a tile, at least: beside so many, its memory and its place in the film take little time."""
 
@@ -464,7 +461,7 @@ class FusedTracer(Tracer):
         narrow = {lobe.width for lobe in lobes} - {dimensions.width.get("gloss")}
         drawn = np.empty((2 * pairs * (1 + len(narrow)), draws.block.size), np.float32)
         for name, width in dimensions.width.items():
-            for depth in range(1 if name in OF_PATH else integrator.max_depth + 1):
+            for depth in range(1 if name in dimensions.of_path else integrator.max_depth + 1):
                 row = dimensions.first(name, depth)
                 if name == CHOICE[0]:
                     # Nothing mirrors: roulette alone draws, the second number.

@@ -62,7 +62,7 @@ class MovingAccelerator:
         for mover in self.movers:
             shifted = self._shifted(origin, mover, time)
             other = mover.accelerator.intersect(shifted, direction, stats, limit=found.t)
-            self._take(found, other, mover)
+            self.take(found, other, mover)
         return found
 
     def unoccluded(
@@ -96,7 +96,7 @@ class MovingAccelerator:
         return free
 
     @staticmethod
-    def _take(
+    def take(
         found: Intersections, other: Intersections, mover: Mover, which: Indices | None = None
     ) -> None:
         """Copy a mover's hits ``other``, all nearer, into ``found``; ``which`` (n,): their rays, None for all."""

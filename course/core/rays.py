@@ -91,6 +91,7 @@ class Dimensions:
         self.width: dict[str, int] = {}
         self._first: dict[str, int] = {}
         begin = self._assign(of_path, 0)
+        self.of_path = frozenset(self.width)
         self._stride = self._assign(of_bounce, begin) - begin
 
     def _assign(self, wanted: Iterable[tuple[str, int]], dimension: int) -> int:

@@ -314,11 +314,15 @@ class LobeLight:
             inverse_length=found.inverse_length.take(kept),
         )
 
+    @cached_property
+    def _weighing(self) -> DirectLight:
+        return replace(self.direct, weigh=self.weigh)
+
     def incident(
         self, hits: Hits, axis: Floats32, path: Indices | None, depth: int, draws: Draws
     ) -> Floats32 | None:
         """Radiance (3, n), or None for 0; ``axis`` (3, n) of the lobes."""
-        direct = replace(self.direct, weigh=self.weigh)
+        direct = self._weighing
         asked = self.combining.asks(hits, axis, self.lamp)
         if asked is None or len(asked) == hits.size:
             return direct.from_lights(hits, path, depth, draws)[0]

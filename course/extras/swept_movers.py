@@ -59,7 +59,7 @@ class SweptMovers(MovingAccelerator):
             start, toward, when = _some(which, origin, direction, time)
             shifted = self._shifted(start, mover, when)
             other = mover.accelerator.intersect(shifted, toward, stats, limit=found.t.take(which))
-            self._take(found, other, mover, which)
+            self.take(found, other, mover, which)
         return found
 
     def unoccluded(

@@ -295,9 +295,7 @@ def _render(
     block = Block(pixels, work.first, work.samples, tile.number)
     wanted = np.repeat(np.isin(pixels, which), work.samples)
     recorder.begin_block(block, wanted)
-    draws = RecordedDraws(
-        tracer.sampler, tracer.dimensions, block, counters, watcher=recorder, recorder=recorder
-    )
+    draws = RecordedDraws(tracer.sampler, tracer.dimensions, block, counters, watcher=recorder)
     offsets = draws("pixel").reshape(2, tile.size, work.samples)
     x, y = tile.corners()
     x, y = (x[:, None] + offsets[0]).ravel(), (y[:, None] + offsets[1]).ravel()

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -86,7 +86,11 @@ def _some_numbers(result: Any) -> list[list[Any]]:
 class RecordedDraws(Draws):
     """Draws numbers for rays that have numbers of their own in the place of their paths."""
 
-    recorder: Recorder = field(default_factory=Recorder)
+    @property
+    def recorder(self) -> Recorder:
+        """The watcher, which numbers the rays."""
+        assert isinstance(self.watcher, Recorder)
+        return self.watcher
 
     def __call__(
         self,

@@ -33,7 +33,7 @@ POLL = 0.05
 """Seconds between two looks at the process that compiles."""
 
 LITTLE = 24, 16
-"""Columns and rows of a picture that is rendered so that stages are compiled."""
+"""Columns and rows of a picture that is rendered so that loops are compiled."""
 
 MODULE = "course.rendering.background_compile"
 """The program of the process that compiles. A user has one of them at a time."""
@@ -118,8 +118,8 @@ def tried(tracer: Tracer) -> Tracer:
 def read(compiled: Callable[[], Tracer], effects: Effects) -> Tracer | None:
     """The compiled tracer that this makes, if all its loops are on disk.
 
-    ``effects``: where its functions are from. A student's aren't called to see that: the stages that call them are
-    compiled when they are imported.
+    ``effects``: where its functions are from. A student's aren't called to see that: what is missing then is compiled
+    when it is first called.
     """
     try:
         with compiling_nothing():
@@ -221,10 +221,10 @@ def _task(scene: Scene, settings: Settings) -> tuple[Any, ...]:
         return scene.path.resolve(), effects.folder.resolve(), settings, ()
     if effects.all_own:
         return scene.path.resolve(), None, settings, ()
-    return _task_of_stages(scene, settings)
+    return _task_of_a_student(scene, settings)
 
 
-def _task_of_stages(scene: Scene, settings: Settings) -> tuple[Any, ...]:
+def _task_of_a_student(scene: Scene, settings: Settings) -> tuple[Any, ...]:
     """On a small picture, with functions that aren't known in the place of a student's."""
     width, height = LITTLE
     little = replace(settings, width=width, height=height, samples=4, subdivision=None)
@@ -243,9 +243,9 @@ def compile_loops(scene: Scene, settings: Settings) -> None:
     _started(_task(scene, settings))
 
 
-def compile_stages(scene: Scene, settings: Settings) -> None:
-    """Have a process compile the stages that a student's functions are called by; nobody waits for it."""
-    _started(_task_of_stages(scene, settings))
+def compile_for_a_student(scene: Scene, settings: Settings) -> None:
+    """Have a process compile the loops that a scene has with a student's functions; nobody waits for it."""
+    _started(_task_of_a_student(scene, settings))
 
 
 def _started(task: tuple[Any, ...]) -> subprocess.Popen[bytes] | None:
@@ -288,7 +288,7 @@ def _another_compiles() -> bool:
 class Own(Effects):
     """The course's own functions, or stand-ins for them.
 
-    ``unknown``: those of which the compiler knows no more than of a student's, so that stages call them;
+    ``unknown``: those of which the compiler knows no more than of a student's, so that no loop has a form of them;
     "module.function"
     """
 

@@ -3,12 +3,13 @@
 import os
 import sys
 from collections.abc import Callable
-from contextlib import ExitStack, closing
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
+from typing import Protocol
 
 from course.casters.choice import VARIABLE
-from course.compiled.engine import has_loops
+from course.compiled.engine import compiled, has_loops
 from course.compiled.library import available
 from course.core.tracer import Tracer
 from course.effects import Bound
@@ -27,6 +28,13 @@ NO_COMPILER = "COURSE_NO_COMPILER"
 """Environment variable: if it is set, nothing is compiled but by ``compiled=True``."""
 
 
+class Closing(Protocol):
+    """What goes on until it is closed."""
+
+    def close(self) -> None:
+        """End it."""
+
+
 @dataclass(frozen=True)
 class Loops:
     """The loops of a render.
@@ -35,12 +43,13 @@ class Loops:
     ----------
     tracer : with which it begins
     film : whether an adaptive film's arithmetic is compiled
-    take_over : given the pool of threads, begins to make compiled loops ready that take over; None where none will
+    take_over : given the pool of threads, begins to make compiled loops ready that take over, until what it returns is
+        closed; None where none will
     """
 
     tracer: Tracer
     film: bool
-    take_over: Callable[[Pool], ExitStack] | None = None
+    take_over: Callable[[Pool], Closing] | None = None
 
 
 def wants_compiled(settings: Settings, wanted: bool | None) -> bool:
@@ -101,7 +110,7 @@ def choose_loops(
         return Loops(tracer, film=False)
     from course.rendering import background_compile as loops
 
-    make = partial(bind, scene, settings, None, True)
+    make = partial(compiled, tracer)
     if wanted or not may_change_over(settings):
         if wanted is None:
             closed.enter_context(loops.compiling_told())
@@ -116,18 +125,12 @@ def choose_loops(
             loops.compile_loops(scene, settings)
         return Loops(read, film)
 
-    def take_over(pool: Pool) -> ExitStack:
-        compiler = loops.BackgroundCompiler(pool, make, scene, settings, tried_to_read=first)
-        stack = ExitStack()
-        stack.enter_context(closing(compiler))
-        return stack
+    def take_over(pool: Pool) -> loops.BackgroundCompiler:
+        return loops.BackgroundCompiler(pool, make, scene, settings, tried_to_read=first)
 
     return Loops(tracer, False, take_over)
 
 
-def loops_of_cluster(
-    scene: Scene, settings: Settings, bound: Bound, wanted: bool | None
-) -> tuple[Loops, bool]:
-    """The same where workers of a cluster follow the rays; and whether these use compiled loops, if they have them."""
-    compiled = wants_compiled(settings, wanted)
-    return Loops(bind(scene, settings, bound), film=compiled), compiled
+def loops_of_cluster(scene: Scene, settings: Settings, bound: Bound, wanted: bool | None) -> Loops:
+    """The same where workers of a cluster follow the rays: with compiled loops where film is, if they have them."""
+    return Loops(bind(scene, settings, bound), film=wants_compiled(settings, wanted))

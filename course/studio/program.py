@@ -35,7 +35,7 @@ from course.recording.view import rays_data, view_data
 from course.rendering.background_compile import (
     LITTLE,
     NotCompiledError,
-    compile_stages,
+    compile_for_a_student,
     compiling_nothing,
 )
 from course.rendering.binding import developed_by, needs_of
@@ -182,7 +182,7 @@ class Program:
                     render(compiled=True)
                 self._compiled = True
             except NotCompiledError:
-                compile_stages(scene, little)
+                compile_for_a_student(scene, little)
 
     def _load(self) -> None:
         assert self.effects is not None
