@@ -29,7 +29,7 @@ STAMP := $(VENV)/.installed
 help:  ## list what make can do
 	@echo "make demo    render four scenes and a page that shows them, in $(DEMO_FOLDER)"
 	@echo "make test    run every test; make test WING=engine, school, site or cli: those of one wing"
-	@echo "make quick   run the main laws of every folder of tests, in less than a minute"
+	@echo "make quick   run the main laws of every room, in less than a minute"
 	@echo "make check   formatting, lint, types, layers"
 	@echo "make bench   measure, print and write JSON"
 	@echo "make stress  thousands of ill-conditioned scenes beside their well-conditioned twins"
@@ -76,8 +76,8 @@ test quick stress: export PYTHONDONTWRITEBYTECODE :=
 # Every core has a process already: threads of BLAS would only wait for each other.
 test quick stress: export OPENBLAS_NUM_THREADS := 1
 # Each folder of tests belongs to one wing (tests/test_wings.py).
-WING_engine := appearance casters core effects geometry imaging radiosity recording rendering scene stress transport
-WING_school := grading quizzes solutions studio
+WING_engine := base engine
+WING_school := school
 WING_site := docs
 WING_cli := benchmarking cli
 WINGS := engine school site cli
@@ -96,7 +96,7 @@ bench: $(STAMP)
 
 stress: $(STAMP)
 	"$(RUN)" -m benchmarks.stress
-	"$(RUN)" -m pytest -q -n auto --timeout=1800 --hypothesis-profile=stress tests/stress tests/docs/test_quiz.py
+	"$(RUN)" -m pytest -q -n auto --timeout=1800 --hypothesis-profile=stress tests/engine/stress tests/docs/test_quiz.py
 
 mutants: $(STAMP)
 	"$(RUN)" -m benchmarks.mutants

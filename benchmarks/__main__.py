@@ -39,7 +39,7 @@ from benchmarks.scaling import measure_scaling, write_scaling
 from course.benchmarking.machine import machine
 from course.benchmarking.tables import print_tables
 from course.cli.bench import DOCUMENTS, bench
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 OUT = Path("out/bench")
 MEASURES = {

@@ -10,8 +10,8 @@ import numpy as np
 
 from benchmarks.figures import Figure, summary
 from course import Picture, Scene, load_scene, render
-from course.effects import PROJECT
-from course.modules import MODULES
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import MODULES
 
 HEIGHT = 96
 REFERENCE = 2048

@@ -18,10 +18,10 @@ from benchmarks.report import report
 from course import Picture, Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import NONE, Table, digits
-from course.compiled.library import available
-from course.core.types import Floats64
-from course.effects import PROJECT
-from course.scene.scene import load_variant
+from course.engine.core.types import Floats64
+from course.engine.functions.effects import PROJECT
+from course.engine.loops.library import available
+from course.engine.scene.scene import load_variant
 
 SCENE = PROJECT / "scenes" / "adaptive_sampling.yaml"
 THREADS = 2

@@ -6,8 +6,8 @@ oracle's samples go and the other half judges what that leaves, so it doesn't ga
 
 What ours takes over what the oracle takes is a product of three: `audits`, all samples over those in the picture;
 `placement`, these over what the oracle needs for the error that was reached; `stopping`, what it needs for that over
-what it needs for the error that was asked for. Samples are counted, and what they cost (`course.adaptive.costs`): ours
-places them by cost.
+what it needs for the error that was asked for. Samples are counted, and what they cost
+(`course.engine.render.adaptive.costs`): ours places them by cost.
 """
 
 from dataclasses import dataclass
@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from benchmarks.figures import Figure
 from benchmarks.reached_error import CASES, error_of
 from course import Picture, Scene, render
-from course.adaptive.allocation import FIRST_OF_NET
-from course.adaptive.film import AdaptiveFilm
 from course.benchmarking.references import Reference, reference
 from course.benchmarking.tables import Table, print_tables
-from course.scene.scene import load_variant
+from course.engine.render.adaptive.allocation import FIRST_OF_NET
+from course.engine.render.adaptive.film import AdaptiveFilm
+from course.engine.scene.scene import load_variant
 
 Array = NDArray[np.float64]
 SCENES = ("supersampling", "soft_shadows", "glossy", "thin_lens", "motion_blur", "cube_map")

@@ -16,8 +16,8 @@ from benchmarks.report import report
 from course import load_scene, render
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Columns, Table, digits, table_of
-from course.core.types import Floats64
-from course.effects import PROJECT, Effects
+from course.engine.core.types import Floats64
+from course.engine.functions.effects import PROJECT, Effects
 
 SAMPLERS = {
     "independent": "random",

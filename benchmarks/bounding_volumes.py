@@ -16,11 +16,11 @@ from benchmarks.figures import Figure, summary
 from benchmarks.report import report
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Columns, Table, table_of
-from course.casters.choice import static_accelerator
-from course.core.accelerator import QueryStats, StaticAccelerator
-from course.core.types import Floats32
-from course.effects import PROJECT, Effects
-from course.shapes import torus_knot
+from course.engine.casters.choice import static_accelerator
+from course.engine.core.accelerator import QueryStats, StaticAccelerator
+from course.engine.core.types import Floats32
+from course.engine.functions.effects import PROJECT, Effects
+from course.engine.shapes import torus_knot
 
 MESHES = ((64, 16), (128, 32), (256, 64), (512, 64), (1024, 128))
 """Segments and sides of the knots: 2,048 triangles to 262,144."""

@@ -20,11 +20,11 @@ from course import Scene, render
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.references import reference
 from course.benchmarking.tables import Table
-from course.core.types import Floats64, Functions
-from course.effects import PROJECT, Bound, Effects
-from course.extras.denoising import MomentsFilm, functions
-from course.formats.yaml.overriding import Overrides
-from course.scene.scene import load_variant
+from course.engine.core.types import Floats64, Functions
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import PROJECT, Bound, Effects
+from course.engine.scene.scene import load_variant
+from course.engine.terms.denoising import MomentsFilm, functions
 
 SCENE = PROJECT / "scenes" / "denoising.yaml"
 SAMPLERS = {"random": "random", "sobol": "Sobol"}

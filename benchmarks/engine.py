@@ -7,9 +7,9 @@ from pathlib import Path
 
 from benchmarks.figures import Figure, summary
 from course import Scene, load_scene, render
-from course.effects import PROJECT
-from course.formats.yaml.overriding import Overrides
-from course.scene.scene import load_variant
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import PROJECT
+from course.engine.scene.scene import load_variant
 
 SCENES = Path(__file__).parent / "scenes"
 REPETITIONS = 7

@@ -8,7 +8,7 @@ import numpy as np
 
 from course.benchmarking.curves import Order, fit_order
 from course.benchmarking.plot_data import Plot, Series
-from course.core.types import Floats64
+from course.engine.core.types import Floats64
 
 
 def median_seconds(

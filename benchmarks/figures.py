@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from course.atomic import write_text
+from course.base.atomic import write_text
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.plot_data import rounded
 from course.benchmarking.tables import Table

@@ -9,17 +9,17 @@ from statistics import median
 from time import perf_counter
 
 from benchmarks.figures import Figure, summary
-from course.effects import PROJECT
-from course.grading.catalog import module_checks
-from course.grading.checks.check import Caller, Check, ModuleChecks, References
-from course.grading.checks.result import Status
-from course.grading.checks.running import run_checks
-from course.grading.grading import grade
-from course.grading.known import known
-from course.grading.pictures.whole import NAME
-from course.grading.references import make_references, read_references, reference
-from course.grading.worker.client import Worker
-from course.modules import COURSE, MODULES
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE, MODULES
+from course.school.grading.catalog import module_checks
+from course.school.grading.checks.check import Caller, Check, ModuleChecks, References
+from course.school.grading.checks.result import Status
+from course.school.grading.checks.running import run_checks
+from course.school.grading.grading import grade
+from course.school.grading.known import known
+from course.school.grading.pictures.whole import NAME
+from course.school.grading.references import make_references, read_references, reference
+from course.school.grading.worker.client import Worker
 
 ROUNDS = 5
 CLASS = 24

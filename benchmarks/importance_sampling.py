@@ -20,8 +20,8 @@ from benchmarks.report import OUT, report
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.plots import COLORS, STYLE, draw_lines, sheet, write
 from course.benchmarking.tables import NONE, Table
-from course.core.types import Floats64
-from course.effects import PROJECT, Effects
+from course.engine.core.types import Floats64
+from course.engine.functions.effects import PROJECT, Effects
 
 MODULE = Effects(PROJECT / "solutions")
 uniform_hemisphere = MODULE.function("importance_sampling", "uniform_hemisphere")

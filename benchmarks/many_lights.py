@@ -21,12 +21,12 @@ from course.benchmarking.measuring import Effort
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import Table, digits
-from course.compiled.light_tree import compiled_choice
-from course.core.types import Floats64
-from course.effects import PROJECT
-from course.extras.light_tree import TOGETHER, TreeChoice
-from course.formats.yaml.loading import load_description
-from course.scene.scene import load_variant
+from course.engine.core.types import Floats64
+from course.engine.formats.yaml.loading import load_description
+from course.engine.functions.effects import PROJECT
+from course.engine.loops.light_tree import compiled_choice
+from course.engine.scene.scene import load_variant
+from course.engine.terms.lights.light_tree import TOGETHER, TreeChoice
 
 SCENE = PROJECT / "scenes" / "many_lights.yaml"
 CURVES = Effort("curves", 40, (1, 4, 16, 64, 256), 4, 4096)

@@ -14,8 +14,8 @@ from benchmarks.figures import Figure
 from benchmarks.report import report
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Table
-from course.core.types import Floats64
-from course.effects import PROJECT, Effects
+from course.engine.core.types import Floats64
+from course.engine.functions.effects import PROJECT, Effects
 
 MODULE = Effects(PROJECT / "solutions")
 sample_visible_normal = MODULE.function("microfacets", "sample_visible_normal")

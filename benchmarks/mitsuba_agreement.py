@@ -102,7 +102,7 @@ def compare(a: Converged, b: Converged) -> Agreement:
 
 def save_difference(a: Converged, b: Converged, path: Path, scale: float = 0.02) -> None:
     """Both pictures and their difference side by side; grey is equal, black and white differ by half of ``scale``."""
-    from course.formats.pictures.files import save
+    from course.engine.formats.pictures.files import save
 
     difference = np.clip(0.5 + (a.linear - b.linear) / scale, 0, 1)
     row = np.concatenate((a.linear, b.linear, difference**2.2), axis=1)

@@ -14,16 +14,16 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from course.building.gloss import is_rough, lobe_of
-from course.building.materials import Columns, base_color, material_columns
-from course.building.motion import shutter_of
-from course.building.objects import object_mesh
-from course.core.environment import CubeEnvironment
-from course.formats.meshes.parts import same
-from course.formats.yaml import description as d
-from course.formats.yaml.description import rgb
-from course.scene.scene import Scene
-from course.shapes.mesh import Mesh
+from course.engine.core.environment import CubeEnvironment
+from course.engine.formats.meshes.parts import same
+from course.engine.formats.yaml import description as d
+from course.engine.formats.yaml.description import rgb
+from course.engine.scene.building.gloss import is_rough, lobe_of
+from course.engine.scene.building.materials import Columns, base_color, material_columns
+from course.engine.scene.building.motion import shutter_of
+from course.engine.scene.building.objects import object_mesh
+from course.engine.scene.scene import Scene
+from course.engine.shapes.mesh import Mesh
 
 LOBES = ("", "jitter_on_plane", "jitter_in_ball", "sample_phong_lobe")
 """Kinds of gloss by number; 0 is a perfect mirror."""

@@ -6,7 +6,7 @@ lobes. What follows here is exactly the light paths of ours, and no slower than 
 parts: all geometry is one mesh, materials are rows of a table, and nothing is called through a pointer.
 
 A scene that moves is one Mitsuba scene for each velocity, and rays are shifted into its frame: Mitsuba has no motion.
-Symbols as in ``course.core``: ng, ns geometric and shading normals on the incoming side.
+Symbols as in ``course.engine.core``: ng, ns geometric and shading normals on the incoming side.
 """
 
 import math

@@ -18,10 +18,10 @@ from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
 from benchmarks.mitsuba_llvm import make_mesh
 from benchmarks.mitsuba_phong import register_phong_lobe
 from benchmarks.mitsuba_variants import Sensors
-from course.formats.yaml import description as d
-from course.formats.yaml.description import rgb
-from course.formats.yaml.loading import load_description
-from course.formats.yaml.overriding import Overrides
+from course.engine.formats.yaml import description as d
+from course.engine.formats.yaml.description import rgb
+from course.engine.formats.yaml.loading import load_description
+from course.engine.formats.yaml.overriding import Overrides
 
 SAMPLES_A_STILL = 4
 """Of a picture of moving things, which is the mean of stills."""

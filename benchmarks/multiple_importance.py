@@ -16,15 +16,15 @@ import numpy as np
 from benchmarks.figures import Figure
 from benchmarks.ways import REFERENCES, compare_ways
 from course import Scene, render
-from course.atomic import write_text
+from course.base.atomic import write_text
 from course.benchmarking.machine import machine
 from course.benchmarking.measuring import Effort, Measured
 from course.benchmarking.plot_data import rounded
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import Table, print_tables
-from course.core.types import Floats64
-from course.effects import PROJECT
-from course.scene.scene import load_scene, load_variant
+from course.engine.core.types import Floats64
+from course.engine.functions.effects import PROJECT
+from course.engine.scene.scene import load_scene, load_variant
 
 SCENE = PROJECT / "scenes" / "multiple_importance.yaml"
 PLATES = PROJECT / "docs" / "data" / "plates" / "veach.json"

@@ -25,9 +25,9 @@ from course.benchmarking.measuring import Measured, measure
 from course.benchmarking.plot_data import comparisons
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import summary_table
-from course.compiled.library import available
-from course.effects import PROJECT
-from course.scene.scene import load_variant
+from course.engine.functions.effects import PROJECT
+from course.engine.loops.library import available
+from course.engine.scene.scene import load_variant
 
 SCENE = PROJECT / "scenes" / "path_tracing.yaml"
 ROUNDS = 5

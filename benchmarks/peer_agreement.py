@@ -34,15 +34,15 @@ from benchmarks.peer_cases import rounded_deeply
 from benchmarks.peer_scenes import scene_path
 from benchmarks.peers import versions
 from course import Scene, render
-from course.atomic import write_text
+from course.base.atomic import write_text
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import Table, print_tables
-from course.effects import PROJECT
-from course.formats.yaml.loading import load_description
-from course.formats.yaml.overriding import Overrides
-from course.grading.known import known
-from course.scene.scene import load_variant
+from course.engine.formats.yaml.loading import load_description
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import PROJECT
+from course.engine.scene.scene import load_variant
+from course.school.grading.known import known
 
 MARK = "python -m benchmarks.peer_agreement"
 OUT = Path("out/bench/peers/agreement")

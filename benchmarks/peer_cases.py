@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 
 from benchmarks.mitsuba_agreement import Agreement
-from course.atomic import write_text
+from course.base.atomic import write_text
 from course.benchmarking.plot_data import rounded
 
 EFFECTS = (

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from course.atomic import replacing
-from course.effects import PROJECT
+from course.base.atomic import replacing
+from course.engine.functions.effects import PROJECT
 
 FOLDER = Path(__file__).parent / "scenes" / "peers"
 SQUARES = 200

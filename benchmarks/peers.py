@@ -50,16 +50,16 @@ from benchmarks.peer_cases import (
 from benchmarks.peer_document import SIZE, tables, write_document
 from benchmarks.peer_scenes import scene_path
 from course import Scene, render
+from course.base.processes import environment_apart
 from course.benchmarking.machine import machine
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import print_tables
-from course.compiled.library import available
-from course.effects import PROJECT
-from course.formats.yaml.description import rgb
-from course.formats.yaml.loading import load_description
-from course.formats.yaml.overriding import Overrides
-from course.processes import environment_apart
-from course.scene.scene import load_variant
+from course.engine.formats.yaml.description import rgb
+from course.engine.formats.yaml.loading import load_description
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import PROJECT
+from course.engine.loops.library import available
+from course.engine.scene.scene import load_variant
 
 MITSUBA_COUNTS = (4, *SAMPLES)
 """Samples a pixel with which each sampler of Mitsuba's is measured."""

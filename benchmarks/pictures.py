@@ -20,14 +20,14 @@ from typing import Any
 import click
 import numpy as np
 
-from course.atomic import write_text
+from course.base.atomic import write_text
+from course.base.errors import CourseError
 from course.benchmarking.machine import machine
-from course.compiled.library import available
-from course.effects import PROJECT
-from course.errors import CourseError
-from course.extras.samplers import FUNCTIONS
-from course.render_scene import render
-from course.scene.scene import Scene, load_scene
+from course.engine.functions.effects import PROJECT
+from course.engine.loops.library import available
+from course.engine.render.render import render
+from course.engine.scene.scene import Scene, load_scene
+from course.engine.terms.samplers import FUNCTIONS
 
 SAMPLES = 4
 WIDTH = 120

@@ -20,10 +20,10 @@ from benchmarks.figures import Figure
 from benchmarks.report import report
 from course.benchmarking.plot_data import Plot
 from course.benchmarking.tables import Columns, Table, digits, order_with_interval, table_of
-from course.core.samplers import Block
-from course.core.types import Floats32, Floats64
-from course.effects import PROJECT, Effects
-from course.extras.samplers.sobol import SobolSampler
+from course.engine.core.samplers import Block
+from course.engine.core.types import Floats32, Floats64
+from course.engine.functions.effects import PROJECT, Effects
+from course.engine.terms.samplers.sobol import SobolSampler
 
 COUNTS = tuple(4**power for power in range(2, 8))
 """Numbers of points: squares for the jittered ones, and powers of 2 for the others."""

@@ -18,13 +18,13 @@ from benchmarks.report import OUT, Cell, draw_sheet, report
 from course import Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Columns, Table, table_of
-from course.core.types import Floats32, Floats64
-from course.effects import PROJECT
-from course.radiosity.hemicubes import Views, make_hemicube
-from course.radiosity.patches import Functions, Patches, make_patches
-from course.radiosity.radiosity import PATCHES, TOLERANCE, as_solution
-from course.radiosity.solving import GATHERED, Shooting, Solved, form_factors, with_ambient
-from course.radiosity.viewing import Solution, look, own_view
+from course.engine.core.types import Floats32, Floats64
+from course.engine.functions.effects import PROJECT
+from course.engine.radiosity.hemicubes import Views, make_hemicube
+from course.engine.radiosity.patches import Functions, Patches, make_patches
+from course.engine.radiosity.radiosity import PATCHES, TOLERANCE, as_solution
+from course.engine.radiosity.solving import GATHERED, Shooting, Solved, form_factors, with_ambient
+from course.engine.radiosity.viewing import Solution, look, own_view
 
 SCENE = PROJECT / "scenes" / "radiosity.yaml"
 SHOWN = (1, 32, 320)

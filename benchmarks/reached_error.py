@@ -18,9 +18,9 @@ from benchmarks.figures import Figure, summary
 from course import Picture, render
 from course.benchmarking.references import Reference, reference
 from course.benchmarking.tables import Table, print_tables
-from course.effects import PROJECT
-from course.formats.yaml.overriding import Overrides
-from course.scene.scene import load_variant
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import PROJECT
+from course.engine.scene.scene import load_variant
 
 UNIFORM = 64
 """Samples whose error is asked for."""

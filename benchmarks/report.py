@@ -10,8 +10,8 @@ from course.benchmarking.machine import machine
 from course.benchmarking.plot_data import Plot, Record, read_records, write_records
 from course.benchmarking.plots import write_plots
 from course.benchmarking.tables import Table, print_tables
-from course.core.types import Floats32
-from course.formats.pictures.display import linear_to_srgb8
+from course.engine.core.types import Floats32
+from course.engine.formats.pictures.display import linear_to_srgb8
 
 KEPT = Path("out/bench/data")
 

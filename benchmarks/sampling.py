@@ -22,8 +22,8 @@ from benchmarks.report import OUT, report
 from course.benchmarking.plot_data import Plot
 from course.benchmarking.plots import COLORS, SOFT, STYLE, sheet, write
 from course.benchmarking.tables import Columns, Table, table_of
-from course.core.types import Floats32
-from course.effects import PROJECT, Effects
+from course.engine.core.types import Floats32
+from course.engine.functions.effects import PROJECT, Effects
 
 POINTS = 1_000_000
 SHOWN = 700

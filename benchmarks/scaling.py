@@ -27,11 +27,11 @@ from benchmarks.mitsuba_scalar import NativeScene
 from benchmarks.mitsuba_variants import find_llvm, start_llvm
 from benchmarks.report import report
 from course import load_scene, render
+from course.base.processes import environment_apart
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Table
-from course.compiled.library import available
-from course.processes import environment_apart
+from course.engine.loops.library import available
 
 SIZE, SAMPLES, THREADS = (200, 150), 16, 2
 STEPS = 3

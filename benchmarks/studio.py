@@ -19,10 +19,10 @@ from typing import Any
 import click
 
 from course.benchmarking.machine import machine
-from course.effects import PROJECT
-from course.modules import COURSE, MODULES
-from course.studio import studio as whole
-from course.studio.studio import GOOD, SOON, Studio
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE, MODULES
+from course.school.studio import studio as whole
+from course.school.studio.studio import GOOD, SOON, Studio
 
 SAVES = 3
 """Of each scene; medians are told."""

@@ -19,7 +19,7 @@ from typing import Any
 import click
 from PIL import Image
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 FILM = PROJECT / "docs" / "_static" / "studio.webp"
 
@@ -80,9 +80,9 @@ def main() -> None:
     """Record the film."""
     from playwright.sync_api import sync_playwright
 
-    from course.studio import checker
-    from course.studio import studio as rules
-    from course.studio.server import Server
+    from course.school.studio import checker
+    from course.school.studio import studio as rules
+    from course.school.studio.server import Server
 
     # Nobody waits for anything that the film doesn't show.
     rules.MOST, checker.NICE = 64, 0

@@ -14,7 +14,7 @@ from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.measuring import Effort, Measured, measure
 from course.benchmarking.plot_data import Plot, comparisons
 from course.benchmarking.tables import Table, summary_table
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 REFERENCES = Path("out/references")
 

@@ -11,35 +11,36 @@ What most programs need is here; each name is imported when it is first asked fo
 
 from importlib import import_module
 
+from course.base.version import __version__
+
 # Not from typing: `python -m course` imports nothing before `__main__.py` has taken the current folder out of the way.
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from course.errors import CourseError as CourseError
-    from course.errors import EffectError as EffectError
-    from course.errors import GeometryError as GeometryError
-    from course.errors import OutputError as OutputError
-    from course.errors import SceneError as SceneError
-    from course.jobs.picture import Picture as Picture
-    from course.recording.pixel import pixel as pixel
-    from course.recording.story import Story as Story
-    from course.render_scene import render as render
-    from course.scene.scene import Scene as Scene
-    from course.scene.scene import load_scene as load_scene
+    from course.base.errors import CourseError as CourseError
+    from course.base.errors import EffectError as EffectError
+    from course.base.errors import GeometryError as GeometryError
+    from course.base.errors import OutputError as OutputError
+    from course.base.errors import SceneError as SceneError
+    from course.engine.recording.pixel import pixel as pixel
+    from course.engine.recording.story import Story as Story
+    from course.engine.render.picture import Picture as Picture
+    from course.engine.render.render import render as render
+    from course.engine.scene.scene import Scene as Scene
+    from course.engine.scene.scene import load_scene as load_scene
 
-__version__ = "0.1.0"
 
 _HOMES = {
-    "CourseError": "course.errors",
-    "EffectError": "course.errors",
-    "GeometryError": "course.errors",
-    "OutputError": "course.errors",
-    "Picture": "course.jobs.picture",
-    "Scene": "course.scene.scene",
-    "SceneError": "course.errors",
-    "Story": "course.recording.story",
-    "load_scene": "course.scene.scene",
-    "pixel": "course.recording.pixel",
-    "render": "course.render_scene",
+    "CourseError": "course.base.errors",
+    "EffectError": "course.base.errors",
+    "GeometryError": "course.base.errors",
+    "OutputError": "course.base.errors",
+    "Picture": "course.engine.render.picture",
+    "Scene": "course.engine.scene.scene",
+    "SceneError": "course.base.errors",
+    "Story": "course.engine.recording.story",
+    "load_scene": "course.engine.scene.scene",
+    "pixel": "course.engine.recording.pixel",
+    "render": "course.engine.render.render",
 }
 
 __all__ = ["__version__", *_HOMES]  # noqa: PLE0604

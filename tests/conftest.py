@@ -14,8 +14,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene
-from course.rendering import which_loops
-from course.rendering.threads import default_threads
+from course.engine.render import which_loops
+from course.engine.render.threads import default_threads
 from tests.browser import browser
 from tests.forms import FORMS
 from tests.once import Once, made_once, shared_folder

@@ -4,12 +4,12 @@ from dataclasses import replace
 from typing import Any
 
 from course import Scene
-from course.core.counters import Counters
-from course.core.samplers import Block
-from course.core.tiles import passes
-from course.core.types import Indices
-from course.extras.samplers.sobol import SobolSampler
-from course.rendering.binding import bind
+from course.engine.core.counters import Counters
+from course.engine.core.samplers import Block
+from course.engine.core.tiles import passes
+from course.engine.core.types import Indices
+from course.engine.render.binding import bind
+from course.engine.terms.samplers.sobol import SobolSampler
 
 Drawn = set[tuple[int, int]]
 """(dimension, width)."""

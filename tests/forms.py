@@ -2,7 +2,7 @@
 
 import pytest
 
-from course.compiled import library
+from course.engine.loops import library
 
 needs_numba = pytest.mark.skipif(
     not library.available(), reason="Numba is not installed (pip install .[fast])"

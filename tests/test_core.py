@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from course.modules import MODULES
+from course.engine.functions.modules import MODULES
 from tests.code_lines import code_lines
 from tests.processes import python
 
 ROOT = Path(__file__).parents[1]
 COURSE = ROOT / "course"
-CORE = COURSE / "core"
+CORE = COURSE / "engine" / "core"
 
 FILES = sorted(CORE.rglob("*.py"))
 MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 32, 1820, 60
@@ -83,7 +83,9 @@ def _paragraph(begins: str) -> str:
 
 def test_the_readme_says_how_long_the_core_is() -> None:
     lines = sum(len(_lines(path)) for path in FILES)
-    told = re.search(r"`course/core`, ([\d,]+) lines", (ROOT / "README.md").read_text("utf-8"))
+    told = re.search(
+        r"`course/engine/core`, ([\d,]+) lines", (ROOT / "README.md").read_text("utf-8")
+    )
     assert told is not None
     assert abs(int(told[1].replace(",", "")) - lines) <= 50
 

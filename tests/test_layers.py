@@ -10,54 +10,57 @@ import pytest
 ROOT = Path(__file__).parents[1]
 COURSE = ROOT / "course"
 
-LAYERS = {
-    # The whole renderer for the six effects: it imports nothing else of the course.
-    "core": 0,
-    "casters": 1,
-    "errors": 1,
-    "contracts": 1,
-    "signatures": 1,
-    "guard": 1,
-    "effects": 1,
-    "inputs": 1,
-    "modules": 1,
-    "processes": 1,
-    "stand_ins": 1,
-    "texts": 1,
-    "atomic": 1,
-    "extras": 2,
-    "shapes": 2,
-    "compiled": 3,
-    "formats": 3,
-    "building": 4,
-    "comparing": 4,
-    "scene": 5,
-    "jobs": 6,
-    "adaptive": 7,
-    "rendering": 8,
-    "cluster": 9,
-    "radiosity": 9,
-    "recording": 9,
-    "render_scene": 10,
-    "benchmarking": 11,
-    "grading": 11,
-    "quizzes": 12,
-    "studio": 12,
-    "cli": 13,
-    # The front door: `from course import render`, and `python -m course`.
-    "__init__": 13,
-    "__main__": 13,
+FLOORS = {
+    "course": [
+        {"base"},
+        {"engine"},
+        {"benchmarking", "school"},
+        {"__init__"},  # the front door: `from course import render`
+        {"cli"},
+        {"__main__"},
+    ],
+    "course.engine": [
+        # The whole renderer for the six effects: it imports nothing else of the course.
+        {"core"},
+        {"casters", "shapes"},
+        {"functions"},
+        {"terms"},
+        {"formats", "loops"},
+        {"comparing", "scene"},
+        {"render"},
+        {"radiosity", "recording"},
+    ],
+    "course.engine.terms": [
+        {"cameras", "samplers", "surfaces", "denoising", "work"},
+        {"scattering"},
+        {"environments", "lights"},
+        {"paths", "world"},
+        {"plan"},
+    ],
+    "course.school": [{"grading"}, {"quizzes", "studio"}],
 }
-STRANGERS = {
-    frozenset({"compiled", "formats"}),
-    frozenset({"cluster", "radiosity"}),
-    frozenset({"cluster", "recording"}),
-    frozenset({"radiosity", "recording"}),
-    frozenset({"benchmarking", "grading"}),
-    frozenset({"quizzes", "studio"}),
-}
-"""Neighbours on one layer that know nothing of each other."""
+"""Rooms of the house and of its wings, from the lowest floor on; rooms of one floor know nothing of each other."""
 
+DOOR = {
+    "casters": {"choice"},
+    "comparing": {"comparison", "seen"},
+    "core": {"accelerator", "film", "rays", "tiles", "types"},
+    "formats": {
+        *("pictures.display", "yaml.checking", "yaml.description", "yaml.document", "yaml.loading"),
+        *("yaml.schema", "yaml.suggestions", "yaml.tree"),
+    },
+    "functions": {"contracts", "effects", "modules", "own", "signatures"},
+    "loops": {"fits", "library"},
+    "recording": {"pair", "recording", "stages", "story", "view"},
+    "render": {
+        *("adaptive.rounds", "background_compile", "binding", "cluster.connection", "developing"),
+        *("not_written", "picture", "render", "threads", "which_loops"),
+    },
+    "scene": {"building.cameras", "building.world", "scene"},
+    "shapes": {"__init__"},
+    "terms": {"samplers.sobol"},
+}
+"""What the school takes of the engine, by room."""
 
 CORE_NEEDS = {"numpy", "embreex"}
 
@@ -74,10 +77,18 @@ def modules() -> list[tuple[str, Path]]:
 NAMES = {name for name, _ in modules()}
 
 
-def part(module: str) -> str:
-    """Where in the house a module is: "geometry" for course.core.triangles."""
-    _, _, rest = module.partition(".")
-    return rest.partition(".")[0] or "__init__"
+def room(module: str, wing: str) -> str | None:
+    """Which room of a wing a module is in: "core" for course.engine.core.rays; None if it is in another wing."""
+    if module == wing:
+        return "__init__" if "__init__" in floors(wing) else None
+    return (
+        module.removeprefix(f"{wing}.").partition(".")[0] if module.startswith(f"{wing}.") else None
+    )
+
+
+def floors(wing: str) -> dict[str, int]:
+    """The floor of each room."""
+    return {name: floor for floor, rooms in enumerate(FLOORS[wing]) for name in rooms}
 
 
 def imports(source: str) -> Iterator[tuple[int, str]]:
@@ -90,8 +101,6 @@ def imports(source: str) -> Iterator[tuple[int, str]]:
             assert node.level == 0, f"line {node.lineno}: a relative import"
             for alias in node.names:
                 inner = f"{node.module}.{alias.name}"
-                if inner == "course.__version__":
-                    continue  # a constant, there before anything else of the package
                 yield node.lineno, inner if inner in NAMES else str(node.module)
         elif (
             isinstance(node, ast.Call)
@@ -106,41 +115,54 @@ def imports(source: str) -> Iterator[tuple[int, str]]:
 
 def breaches(module: str, source: str) -> list[str]:
     """What a module imports though it must not."""
-    here = part(module)
     found = []
     for line, name in imports(source):
         where = f"{module}, line {line}: imports {name}"
         top = name.partition(".")[0]
+        in_core = module.startswith("course.engine.core.")
         if top in {"assignments", "solutions"}:
             found.append(f"{where}; the folder of effects is chosen when a scene is loaded")
-        elif top == "course":
-            there = part(name)
-            if LAYERS[there] > LAYERS[here]:
-                found.append(f"{where}, from layer {LAYERS[here]} up to layer {LAYERS[there]}")
-            elif frozenset({here, there}) in STRANGERS:
-                found.append(f"{where}; {here} and {there} stand side by side")
-        elif here == "core" and top not in CORE_NEEDS and top not in sys.stdlib_module_names:
+        elif in_core and top not in {"course", *CORE_NEEDS, *sys.stdlib_module_names}:
             found.append(f"{where}; the core needs NumPy and embreex only")
+        elif in_core and top == "course" and not name.startswith("course.engine.core"):
+            found.append(f"{where}; the core imports nothing else of the course")
+        elif module.startswith("course.school.") and name.startswith("course.engine."):
+            inner, _, rest = name.removeprefix("course.engine.").partition(".")
+            if (rest or "__init__") not in DOOR.get(inner, ()):
+                found.append(f"{where}, which is not of the engine's door")
+        for wing in FLOORS:
+            here, there = room(module, wing), room(name, wing)
+            if here is None or there is None or here == there:
+                continue
+            low, high = floors(wing)[here], floors(wing)[there]
+            if high > low:
+                found.append(f"{where}, from {here} on floor {low} up to {there} on floor {high}")
+            elif high == low:
+                found.append(f"{where}; {here} and {there} stand side by side")
     return found
 
 
-def test_every_file_of_the_course_has_a_layer() -> None:
-    assert {part(name) for name in NAMES} <= LAYERS.keys()
+@pytest.mark.parametrize("wing", FLOORS)
+def test_every_file_of_a_wing_has_a_floor(wing: str) -> None:
+    found = {room(name, wing) for name in NAMES if name != wing or wing == "course"} - {None}
+    assert found == floors(wing).keys()
+
+
+def test_the_school_takes_all_that_its_door_names() -> None:
+    taken = {
+        name.removeprefix("course.engine.")
+        for module, path in modules()
+        if module.startswith("course.school.")
+        for _, name in imports(path.read_text(encoding="utf-8"))
+    }
+    for inner, names in DOOR.items():
+        for name in names:
+            assert (inner if name == "__init__" else f"{inner}.{name}") in taken
 
 
 @pytest.mark.parametrize(("module", "path"), modules(), ids=[name for name, _ in modules()])
 def test_imports_run_downwards_only(module: str, path: Path) -> None:
     assert not breaches(module, path.read_text(encoding="utf-8"))
-
-
-def test_parts_never_import_each_other_in_a_circle() -> None:
-    uses: dict[str, set[str]] = {name: set() for name in LAYERS}
-    for module, path in modules():
-        for _, name in imports(path.read_text(encoding="utf-8")):
-            if name.partition(".")[0] == "course" and part(name) != part(module):
-                uses[part(module)].add(part(name))
-    for name, used in uses.items():
-        assert not [other for other in used if name in uses[other]]
 
 
 def test_one_file_knows_embree() -> None:
@@ -150,37 +172,56 @@ def test_one_file_knows_embree() -> None:
         for _, name in imports(path.read_text(encoding="utf-8"))
         if name.partition(".")[0] == "embreex"
     }
-    assert users == {"course.core.embree"}
+    assert users == {"course.engine.core.embree"}
 
 
 @pytest.mark.parametrize(
     ("module", "source", "told"),
     [
+        ("course.base.errors", "import course.cli.main", "from base on floor 0 up to cli on floor 4"),
         (
-            "course.formats.meshes.transforms",
-            "import course.cli.main",
-            "from layer 3 up to layer 13",
+            "course.engine.terms.plan",
+            "def f():\n    from course.engine.render import binding",
+            "from terms on floor 3 up to render on floor 6",
         ),
         (
-            "course.formats.meshes.transforms",
-            "def f():\n    from course.rendering import binding",
-            "up to layer 8",
+            "course.engine.core.vectors",
+            "if TYPE_CHECKING:\n    from course.base.errors import CourseError",
+            "line 2: imports course.base.errors; the core imports nothing else",
+        ),
+        ("course.engine.formats.yaml.loading", "from course import render", "up to __init__"),
+        (
+            "course.engine.formats.yaml.loading",
+            "import_module('course.engine.render.binding')",
+            "up to render",
         ),
         (
-            "course.core.vectors",
-            "if TYPE_CHECKING:\n    from course.errors import CourseError",
-            "line 2: imports course.errors, from layer 0 up to layer 1",
+            "course.engine.loops.fused",
+            "import course.engine.formats.meshes.ply",
+            "formats stand side by side",
         ),
-        ("course.formats.yaml.loading", "from course import render", "up to layer"),
+        ("course.benchmarking.tables", "import course.school.quizzes", "stand side by side"),
         (
-            "course.formats.yaml.loading",
-            "import_module('course.rendering.binding')",
-            "up to layer 8",
+            "course.engine.terms.lights.spot_light",
+            "import course.engine.terms.paths.bounce",
+            "from lights on floor 2 up to paths",
         ),
-        ("course.compiled.fused", "import course.formats.meshes.ply", "stand side by side"),
-        ("course.effects", "import solutions.supersampling", "chosen when a scene is loaded"),
-        ("course.effects", "importlib.import_module('solutions')", "chosen when a scene is loaded"),
-        ("course.core.vectors", "import scipy", "NumPy and embreex only"),
+        (
+            "course.school.grading.report",
+            "import course.engine.loops.fused",
+            "not of the engine's door",
+        ),
+        (
+            "course.engine.functions.effects",
+            "import solutions.supersampling",
+            "chosen when a scene is loaded",
+        ),
+        (
+            "course.engine.functions.effects",
+            "importlib.import_module('solutions')",
+            "chosen when a scene is loaded",
+        ),
+        ("course.engine.core.vectors", "import scipy", "NumPy and embreex only"),
     ],
 )
 def test_a_breach_is_told(module: str, source: str, told: str) -> None:
@@ -189,9 +230,7 @@ def test_a_breach_is_told(module: str, source: str, told: str) -> None:
 
 
 def test_what_is_below_may_be_imported() -> None:
-    source = (
-        "import math\nimport numpy as np\nfrom course.errors import CourseError\nimport trimesh"
-    )
-    assert not breaches("course.formats.meshes.files", source)
-    assert not breaches("course.cli.render", "from course.rendering.threads import Pool")
-    assert not breaches("course.jobs.receipt", "from course import __version__")
+    source = "import math\nimport numpy as np\nfrom course.base.errors import CourseError\nimport trimesh"
+    assert not breaches("course.engine.formats.meshes.files", source)
+    assert not breaches("course.cli.render", "from course.engine.render.threads import Pool")
+    assert not breaches("course.engine.terms.plan", "import course.engine.terms.paths.bounce")

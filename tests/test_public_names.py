@@ -42,7 +42,13 @@ def test_the_package_costs_nothing_until_it_is_used() -> None:
 
 
 @pytest.mark.parametrize(
-    "first", ["", "import course.rendering", "import course.jobs.receipt", "import course.cli.main"]
+    "first",
+    [
+        "",
+        "import course.engine.render",
+        "import course.engine.render.receipt",
+        "import course.cli.main",
+    ],
 )
 def test_render_is_a_function_whatever_was_imported_before(first: str) -> None:
     in_a_new_process(f"{first}\nfrom course import load_scene, render\nassert callable(render)")

@@ -17,9 +17,9 @@ import yaml
 
 from course import load_scene, render
 from course.cli.tables import summary_sections
-from course.formats.pictures.reading import read_picture
-from course.modules import COURSE, MODULES
-from course.rendering.summary import summarize
+from course.engine.formats.pictures.reading import read_picture
+from course.engine.functions.modules import COURSE, MODULES
+from course.engine.render.summary import summarize
 from tests.once import Once
 
 SCENES = Path(__file__).parent.parent / "scenes"

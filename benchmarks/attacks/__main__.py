@@ -8,7 +8,7 @@ import click
 
 from benchmarks.attacks.running import ATTACKS, Outcome, outcomes, run_all
 from benchmarks.attacks.walls import OPEN, WALLS
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 OUT = PROJECT / "docs" / "data" / "grading" / "attacks.json"
 

@@ -6,7 +6,7 @@ itself, or if a check ends in an error of the grader.
 
 from textwrap import dedent, indent
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 MODULE = "motion_blur"
 FUNCTION = "to_object_space"
@@ -165,7 +165,7 @@ FORGING: dict[str, tuple[str, str]] = {
         WRONG,
     ),
     "an error of the grader's name": (
-        "class GraderError(Exception): pass\nGraderError.__module__ = 'course.grading.errors'\n",
+        "class GraderError(Exception): pass\nGraderError.__module__ = 'course.school.grading.errors'\n",
         "raise GraderError('grader error')",
     ),
     "an error without a text": (

@@ -138,7 +138,7 @@ READING = {
     "imports the course and its solutions": """
         sys.path[:0] = [STAGE["project"]]
         found = []
-        for name in ("solutions.motion_blur", "course.grading.references"):
+        for name in ("solutions.motion_blur", "course.school.grading.references"):
             try:
                 found.append(__import__(name).__file__)
             except Exception:

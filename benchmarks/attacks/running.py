@@ -14,16 +14,16 @@ from benchmarks.attacks.forging import FORGING, MODULE, submission
 from benchmarks.attacks.reaching import ALONE, MANY_THREADS, PRELUDE, REACHING
 from benchmarks.attacks.stage import Stage
 from benchmarks.attacks.walls import OPEN, behind, python_for
-from course.effects import PROJECT
-from course.grading.checks.check import Check
-from course.grading.checks.result import Status
-from course.grading.errors import StudentError
-from course.grading.grading import grade
-from course.grading.references import references
-from course.grading.report import Report
-from course.grading.worker.client import Worker
-from course.grading.worker.limits import Limits
-from course.grading.worker.sandbox import Sandbox
+from course.engine.functions.effects import PROJECT
+from course.school.grading.checks.check import Check
+from course.school.grading.checks.result import Status
+from course.school.grading.errors import StudentError
+from course.school.grading.grading import grade
+from course.school.grading.references import references
+from course.school.grading.report import Report
+from course.school.grading.worker.client import Worker
+from course.school.grading.worker.limits import Limits
+from course.school.grading.worker.sandbox import Sandbox
 
 LIMITS = Limits(call_seconds=2.0, memory=1 << 30, deaths=2)
 

@@ -15,8 +15,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, sleep
 
-from course.effects import PROJECT
-from course.grading.worker.sandbox import HERE, WORKER_FILES
+from course.engine.functions.effects import PROJECT
+from course.school.grading.worker.sandbox import HERE, WORKER_FILES
 
 GONE_WITHIN = 3.0
 """Seconds that what a worker has started may take to end after it."""

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from course.effects import PROJECT
-from course.grading.worker.sandbox import Sandbox, plain, sandbox
+from course.engine.functions.effects import PROJECT
+from course.school.grading.worker.sandbox import Sandbox, plain, sandbox
 
 WALLS: dict[str, dict[str, bool]] = {
     "bubblewrap": {},

@@ -6,8 +6,8 @@ import random
 from dataclasses import replace
 from itertools import pairwise
 
-from course.grading.classes.notebooks import read_notebook
-from course.grading.known import Known
+from course.school.grading.classes.notebooks import read_notebook
+from course.school.grading.known import Known
 
 NOISE = (
     "%matplotlib inline\nimport matplotlib.pyplot as plt",

@@ -37,22 +37,22 @@ from benchmarks.mutants.judging import (
 from benchmarks.mutants.variants import variants
 from benchmarks.mutants.varied import gaps
 from benchmarks.mutants.varied import varied as varied_by_checks
-from course.atomic import write_rows
+from course.base.atomic import write_rows
 from course.benchmarking.tables import NONE, Table
-from course.effects import PROJECT
-from course.grading.catalog import module_checks
-from course.grading.checks.result import Status
-from course.grading.checks.running import run_checks
-from course.grading.known import Known, known, trusted
-from course.grading.references import make_references, prepared, read_references, reference
-from course.grading.worker.client import Worker
-from course.grading.worker.limits import Limits
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
+from course.school.grading.catalog import module_checks
+from course.school.grading.checks.result import Status
+from course.school.grading.checks.running import run_checks
+from course.school.grading.known import Known, known, trusted
+from course.school.grading.references import make_references, prepared, read_references, reference
+from course.school.grading.worker.client import Worker
+from course.school.grading.worker.limits import Limits
 
 CHANCE = ("distribution", "order")
 """Kinds of checks in which chance decides; bias is estimated from its own distribution, for it renders."""
 
-EXPLAINED = PROJECT / "course/grading/data/explained.json"
+EXPLAINED = PROJECT / "course/school/grading/data/explained.json"
 """Where the grader reads which checks a mistake explains."""
 
 RENDERED = ("picture", "bias", "speed")

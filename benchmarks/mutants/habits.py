@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from course.effects import Effects
-from course.grading.catalog import module_checks
-from course.grading.checks.check import Array
-from course.grading.checks.declare import Function, declared_function
-from course.grading.checks.result import Status
-from course.grading.checks.running import run_checks
-from course.grading.checks.trusted import TrustedModule
-from course.grading.references import SOLUTIONS
-from course.modules import COURSE
+from course.engine.functions.effects import Effects
+from course.engine.functions.modules import COURSE
+from course.school.grading.catalog import module_checks
+from course.school.grading.checks.check import Array
+from course.school.grading.checks.declare import Function, declared_function
+from course.school.grading.checks.result import Status
+from course.school.grading.checks.running import run_checks
+from course.school.grading.checks.trusted import TrustedModule
+from course.school.grading.references import SOLUTIONS
 
 Call = Callable[..., Any]
 Habit = Callable[[Function, Call], Call]

@@ -4,15 +4,15 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 from benchmarks.mutants.severity import is_right_elsewhere, is_useless
-from course.grading.catalog import module_checks
-from course.grading.checks.check import Caller, Check, References
-from course.grading.checks.declare import declared_function
-from course.grading.checks.mistakes import SLIPS
-from course.grading.checks.result import Result, Status
-from course.grading.checks.running import run_checks
-from course.grading.known import Known, trusted
-from course.grading.references import reference
-from course.modules import COURSE
+from course.engine.functions.modules import COURSE
+from course.school.grading.catalog import module_checks
+from course.school.grading.checks.check import Caller, Check, References
+from course.school.grading.checks.declare import declared_function
+from course.school.grading.checks.mistakes import SLIPS
+from course.school.grading.checks.result import Result, Status
+from course.school.grading.checks.running import run_checks
+from course.school.grading.known import Known, trusted
+from course.school.grading.references import reference
 
 WIDTH = max(map(len, COURSE)) + 2
 """Characters of the matrix's column of modules."""

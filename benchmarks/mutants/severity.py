@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from course.grading.checks.check import Array, Caller, Failure
-from course.grading.checks.declare import Arguments, Function
-from course.grading.checks.drawing import Draw
-from course.grading.checks.laws import exact
-from course.grading.errors import StudentError
+from course.school.grading.checks.check import Array, Caller, Failure
+from course.school.grading.checks.declare import Arguments, Function
+from course.school.grading.checks.drawing import Draw
+from course.school.grading.checks.laws import exact
+from course.school.grading.errors import StudentError
 
 COLUMNS = 2000
 

@@ -7,8 +7,8 @@ exchanged; so a wrong one stays as wrong, and has to be caught and named as befo
 from collections.abc import Iterator
 from dataclasses import replace
 
-from course.grading.checks.declare import declared_function
-from course.grading.known import Known, known
+from course.school.grading.checks.declare import declared_function
+from course.school.grading.known import Known, known
 
 WRAPPED = '''
 

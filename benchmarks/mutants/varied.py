@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from course.grading.catalog import module_checks
-from course.grading.checks.check import Array, Caller, Trial
-from course.grading.checks.declare import declared_function
-from course.grading.references import reference
+from course.school.grading.catalog import module_checks
+from course.school.grading.checks.check import Array, Caller, Trial
+from course.school.grading.checks.declare import declared_function
+from course.school.grading.references import reference
 
 UNIT, WIDE = 2.1, 50.0
 """What is larger than a unit vector's numbers is to be tried at sizes so many times apart."""

@@ -5,7 +5,7 @@ well-conditioned twin, which looks the same; ``shift`` says how far apart [half 
 the smallest change of the scene that explains every difference between their pictures (a backward error). Thin
 triangles add a ``thin_shift``, but only where they are, on a share of the surfaces.
 
-Symbols: U = 2^-24, the rounding of float32; OFFSET, LONG, MOST as in ``course.core.ray_offset``.
+Symbols: U = 2^-24, the rounding of float32; OFFSET, LONG, MOST as in ``course.engine.core.ray_offset``.
 """
 
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ COARSE = {1e3: 1e3, 1e8: 8.0}
 """The size of what is huge, and in which unit numbers are rounded beside it [half extents].
 
 That is its own size, in units of which the room is tiny; unless it is so much larger that the engine puts the origin
-into the room, and cuts triangles there down to the room's size (``course.building.small_objects``).
+into the room, and cuts triangles there down to the room's size (``course.engine.scene.building.small_objects``).
 """
 
 ANGLES = (1e-2, 1e-4, 1e-6)

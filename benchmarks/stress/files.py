@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from benchmarks.stress.triangles import cut
 from course import load_scene, render
-from course.formats.meshes.transforms import rotate
+from course.engine.formats.meshes.transforms import rotate
 
 AXIS = (1.0, 2.0, 3.0)
 AWAY = np.array([1.0, -0.7, 0.31])
@@ -112,7 +112,7 @@ class SceneFiles:
         for name, text in self.texts.items():
             (folder / name).write_text(text, encoding="utf-8")
         for name, picture in self.pictures.items():
-            from course.formats.pictures.files import save
+            from course.engine.formats.pictures.files import save
 
             save(folder / name, np.moveaxis(picture, 2, 0))
         path = folder / SCENE

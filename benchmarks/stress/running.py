@@ -11,7 +11,7 @@ from pathlib import Path
 from benchmarks.stress.axes import TAME
 from benchmarks.stress.cells import Cell, legal
 from benchmarks.stress.verdict import Judge, Verdict
-from course.rendering.threads import default_threads
+from course.engine.render.threads import default_threads
 
 AT_ONCE = 16
 """Cells that a process takes at a time, or all of a family."""

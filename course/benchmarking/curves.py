@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from course.benchmarking.estimators import Estimator
-from course.core.types import Floats64
+from course.engine.core.types import Floats64
 
 FIRST = 4
 """Samples from which an order is fitted: with fewer, an error says little about the next one."""

@@ -8,12 +8,12 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from course.atomic import check_writable, make_folder, write_text
+from course.base.atomic import check_writable, make_folder, write_text
+from course.base.errors import OutputError
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.measuring import Effort, Measured
 from course.benchmarking.plot_data import about, command, read_records, record, write_records
 from course.benchmarking.tables import error_table, reference_table, time_table
-from course.errors import OutputError
 
 MARK = "course bench"
 NAMES = ("accuracy.md", "performance.md")

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.types import Floats64
-from course.errors import CourseError
+from course.base.errors import CourseError
+from course.engine.core.types import Floats64
 
 RELATIVE_FLOOR = 0.01
 """Added to the squared reference, so that black pixels don't decide; a tenth of white, squared."""

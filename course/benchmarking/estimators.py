@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from math import sqrt
 from pathlib import Path
 
-from course.effects import PROJECT
-from course.formats.yaml.overriding import Overrides
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import PROJECT
 
 SAMPLERS = ("regular", "random", "jittered", "sobol")
 
@@ -58,7 +58,7 @@ class Module:
 
     Attributes
     ----------
-    name : as in `course.modules.MODULES`
+    name : as in `course.engine.functions.modules.MODULES`
     scene : the scene file
     groups : comparisons, each a figure: name -> its title
     """

@@ -5,10 +5,10 @@ import platform
 from importlib.metadata import version
 from pathlib import Path
 
-from course import __version__
-from course.casters.choice import software
-from course.compiled.library import available
-from course.rendering.threads import default_threads
+from course.base.version import __version__
+from course.engine.casters.choice import software
+from course.engine.loops.library import available
+from course.engine.render.threads import default_threads
 
 
 def machine() -> dict[str, str]:

@@ -12,11 +12,11 @@ from course.benchmarking.curves import Converged, Curve
 from course.benchmarking.errors import dissimilarity, relative_mse, rmse
 from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.references import FOLDER, Reference, reference
-from course.compiled.library import available
-from course.core.types import Floats64
-from course.effects import Effects
-from course.render_scene import render
-from course.scene.scene import Scene, load_variant
+from course.engine.core.types import Floats64
+from course.engine.functions.effects import Effects
+from course.engine.loops.library import available
+from course.engine.render.render import render
+from course.engine.scene.scene import Scene, load_variant
 
 Tick = Callable[[float], None]
 """Called with the share of a module's work that is done."""

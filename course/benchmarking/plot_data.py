@@ -13,10 +13,10 @@ from typing import Any
 
 import msgspec
 
-from course.atomic import write_text
+from course.base.atomic import write_text
+from course.base.errors import CourseError, OutputError
 from course.benchmarking.curves import Curve
 from course.benchmarking.measuring import FULL, QUICK, Effort, Measured
-from course.errors import CourseError, OutputError
 
 DIGITS = 6
 """Digits that count of a number in a file: enough for the three that are shown to be rounded once."""

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 import numpy as np
 
-from course.atomic import replacing
+from course.base.atomic import replacing
+from course.base.errors import CourseError
 from course.benchmarking.labels import name_lines, plain, powers_of_four, ticks
 from course.benchmarking.measuring import Measured
 from course.benchmarking.plot_data import Plot, Series, comparisons
 from course.benchmarking.tables import digits
-from course.errors import CourseError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,24 +9,21 @@ from pathlib import Path
 
 import numpy as np
 
-from course.atomic import make_folder, replacing
-from course.building.world import compile_scene
-from course.casters.choice import software
-from course.core.schedule import Progress
-from course.core.types import Floats32
-from course.effects import PACKAGE, Effects
-from course.errors import CourseError, SceneError
-from course.formats.yaml.loading import Loaded, load_description
-from course.formats.yaml.named_files import named_files
-from course.formats.yaml.overriding import Overrides
-from course.inputs import read_arrays
-from course.render_scene import render
-from course.scene.scene import Scene
+from course.base.atomic import make_folder, replacing
+from course.base.errors import CourseError, SceneError
+from course.base.inputs import read_arrays
+from course.engine.casters.choice import software
+from course.engine.core.schedule import Progress
+from course.engine.core.types import Floats32
+from course.engine.formats.yaml.loading import Loaded, load_description
+from course.engine.formats.yaml.named_files import named_files
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import PACKAGE, Effects
+from course.engine.render.render import render
+from course.engine.scene.building.world import compile_scene
+from course.engine.scene.scene import Scene
 
-RENDERING = (
-    *("core", "casters", "extras", "compiled", "adaptive", "building", "formats", "shapes"),
-    *("scene", "jobs", "rendering"),
-)
+RENDERING = ("base", "engine")
 """The packages of the course that have a say in a picture."""
 
 LIBRARIES = ("numpy", "pillow", "mapbox_earcut")

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.atomic import make_folder, write_text
+from course.base.atomic import make_folder, write_text
+from course.base.errors import CourseError, OutputError
 from course.cli import options
 from course.cli.outputs import check_outputs, is_same_file
 from course.cli.progress import progress_bar
-from course.effects import PROJECT
-from course.errors import CourseError, OutputError
-from course.modules import COURSE, MODULES
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE, MODULES
 
 if TYPE_CHECKING:
     from course.benchmarking.estimators import Estimator, Module

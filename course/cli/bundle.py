@@ -6,12 +6,12 @@ from pathlib import Path
 
 import click
 
+from course.base.errors import CourseError
 from course.cli.classes import trust_option
 from course.cli.options import PATH, choice_options
 from course.cli.outputs import check_outputs
 from course.cli.tables import count, print_sections
-from course.effects import PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import PROJECT
 
 
 @click.command()
@@ -54,7 +54,7 @@ def _contents(
     system: str, seed: int, modules: tuple[str, ...], title: str, image: str | None, trusted: bool
 ) -> dict[str, bytes]:
     """Path in the archive or folder -> content."""
-    from course.grading.classes import bundles
+    from course.school.grading.classes import bundles
 
     if system == "gradescope":
         return bundles.gradescope_contents(PROJECT, seed, modules, trusted=trusted)
@@ -69,7 +69,7 @@ def _contents(
 
 
 def _archive(out: Path, contents: Callable[[], dict[str, bytes]]) -> int:
-    from course.grading.release.archive import write_zip
+    from course.school.grading.release.archive import write_zip
 
     if out.suffix.lower() != ".zip":
         raise click.BadParameter(f"{out} doesn't end in .zip", param_hint="--out")
@@ -78,14 +78,14 @@ def _archive(out: Path, contents: Callable[[], dict[str, bytes]]) -> int:
 
 
 def _folder(out: Path, contents: Callable[[], dict[str, bytes]]) -> int:
-    from course.grading.release.archive import check_folder, write_folder
+    from course.school.grading.release.archive import check_folder, write_folder
 
     check_folder(out)
     return write_folder(contents(), out)
 
 
 def _tell_totals(modules: tuple[str, ...]) -> None:
-    from course.grading.classes.bundles import totals
+    from course.school.grading.classes.bundles import totals
 
     points = totals(modules)
     rows = [(module, f"{of:g}") for module, of in points.items()]

@@ -6,7 +6,7 @@ import click
 
 from course.cli.options import OUT_FILE, modules_argument
 from course.cli.outputs import check_outputs
-from course.effects import PACKAGE
+from course.engine.functions.effects import PACKAGE
 
 
 @click.command()
@@ -21,7 +21,7 @@ from course.effects import PACKAGE
 @click.option(
     "--out",
     type=OUT_FILE,
-    default=PACKAGE / "grading" / "data" / "tolerances.json",
+    default=PACKAGE / "school" / "grading" / "data" / "tolerances.json",
     show_default="where the checks read them",
 )
 def calibrate(modules: tuple[str, ...], seeds: int, out: Path) -> None:
@@ -29,9 +29,9 @@ def calibrate(modules: tuple[str, ...], seeds: int, out: Path) -> None:
 
     Renders both with several seeds and writes the tolerances, with what they lie between.
     """
-    from course.grading.calibration import calibrate as measured
-    from course.grading.calibration import write_tolerances
-    from course.grading.pictures.judging import tolerances
+    from course.school.grading.calibration import calibrate as measured
+    from course.school.grading.calibration import write_tolerances
+    from course.school.grading.pictures.judging import tolerances
 
     check_outputs(files=[("--out", out)])
     found = dict(tolerances()) | measured(modules, seeds, click.echo)

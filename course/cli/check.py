@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.atomic import write_text
+from course.base.atomic import write_text
+from course.base.errors import CourseError
 from course.cli.options import FAILED, OUT_FILE, folder_option, modules_argument
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.cli.watching import await_change, times
-from course.errors import CourseError
-from course.modules import meant
+from course.engine.functions.modules import meant
 
 if TYPE_CHECKING:
-    from course.grading.checks.check import Check, References
-    from course.grading.checks.result import Result
-    from course.grading.report import Report
+    from course.school.grading.checks.check import Check, References
+    from course.school.grading.checks.result import Result
+    from course.school.grading.report import Report
 
 SHORT = 100
 """Characters of what several checks have found, where it has been told in full before."""
@@ -71,7 +71,7 @@ def check(
 
     Each function is checked by itself. The exit code is 0 when everything is right.
     """
-    from course.grading.references import references
+    from course.school.grading.references import references
 
     check_outputs(files=[("--html", html), ("--json", json_file)])
     arrays = references(seed)
@@ -85,12 +85,12 @@ def check(
         if lines:
             _print_lines(report, folder)
         if html is not None:
-            from course.grading.reports.page import as_page
+            from course.school.grading.reports.page import as_page
 
             write_text(html, as_page(report))
             click.echo(f"{html} written")
         if json_file is not None:
-            from course.grading.reports.formats import as_json
+            from course.school.grading.reports.formats import as_json
 
             document = as_json(report)
             text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
@@ -109,10 +109,10 @@ def _check(
     arrays: References,
     rungs: int,
 ) -> Report:
-    from course.grading.grading import grade
-    from course.grading.references import has_references
-    from course.grading.submissions import find_modules, read_found
-    from course.grading.worker.sandbox import plain
+    from course.school.grading.grading import grade
+    from course.school.grading.references import has_references
+    from course.school.grading.submissions import find_modules, read_found
+    from course.school.grading.worker.sandbox import plain
 
     paths = find_modules(folder, modules)
     for path in paths.values():
@@ -147,7 +147,7 @@ def _check(
 
 def _near(only: str | None, modules: tuple[str, ...]) -> str:
     """The function or check that may be meant by a name that isn't one; empty where none is alike."""
-    from course.grading.catalog import module_checks
+    from course.school.grading.catalog import module_checks
 
     checks = [check for module in modules for check in module_checks(module).checks]
     names = {check.function for check in checks}
@@ -161,8 +161,8 @@ def _near(only: str | None, modules: tuple[str, ...]) -> str:
 
 def _print_lines(report: Report, folder: Path) -> None:
     """A line for each function that isn't right, the first thing that was found of it."""
-    from course.grading.progress import line_of
-    from course.grading.report import grouped
+    from course.school.grading.progress import line_of
+    from course.school.grading.report import grouped
 
     click.echo()
     for module in grouped(report):
@@ -231,7 +231,7 @@ class _Printer:
         self._pending.append(result)
 
     def end(self, report: Report) -> None:
-        from course.grading.report import as_points
+        from course.school.grading.report import as_points
 
         self._flush()
         for module, text in report.printed.items():
@@ -248,7 +248,7 @@ class _Printer:
         results, self._pending = self._pending, []
         if not results:
             return
-        from course.grading.report import FunctionResults, unstarted
+        from course.school.grading.report import FunctionResults, unstarted
 
         function = results[0].function
         wrong = [result for result in results if result.status != "passed"]
@@ -282,8 +282,8 @@ class _Printer:
             _line("these", names)
 
     def _tell(self, result: Result) -> None:
-        from course.grading.progress import line_of
-        from course.grading.report import docs_page, ending, findings, reproduce
+        from course.school.grading.progress import line_of
+        from course.school.grading.report import docs_page, ending, findings, reproduce
 
         what = "" if ending(result) == "failed" else f" [{ending(result)}]"
         click.echo(f"      {click.style(result.check, bold=True)}{what}: {result.title}")

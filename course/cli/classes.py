@@ -17,7 +17,7 @@ from course.cli.progress import progress_bar
 from course.cli.tables import count
 
 if TYPE_CHECKING:
-    from course.grading.classes.grading import ClassEngine, ClassResult, Finished, Runner
+    from course.school.grading.classes.grading import ClassEngine, ClassResult, Finished, Runner
 
 MOST_REMARKS = 12
 """Lines on submissions that are printed; class.html has them all."""
@@ -95,19 +95,19 @@ class ClassOptions:
         if (self.engine == "dask") != (self.address is not None):
             raise click.UsageError("--engine dask and --address go together")
         if self.address is None:
-            from course.grading.classes.engines import in_processes
+            from course.school.grading.classes.engines import in_processes
 
             return partial(in_processes, jobs=self.jobs or os.cpu_count() or 1)
         if self.jobs is not None:
             raise click.UsageError("--jobs is for --engine processes; a cluster has its own")
-        from course.grading.classes.engines import on_cluster
+        from course.school.grading.classes.engines import on_cluster
 
         return partial(on_cluster, address=self.address)
 
     @contextmanager
     def runner(self) -> Iterator[Runner]:
         """Settings for grading, with a progress bar; raises ``UsageError`` as `class_engine` does."""
-        from course.grading.classes.grading import Runner
+        from course.school.grading.classes.grading import Runner
 
         engine = self.class_engine()
         with class_progress() as progress:

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from course.base.errors import CourseError
 from course.cli import options
 from course.cli.outputs import check_outputs
 from course.cli.tables import Section, print_sections
-from course.errors import CourseError
 
 if TYPE_CHECKING:
-    from course.comparing.comparison import Comparison, Found
-    from course.comparing.seen import Seen
+    from course.engine.comparing.comparison import Comparison, Found
+    from course.engine.comparing.seen import Seen
 
 DIFFERENT = 1
 TROUBLE = 2
@@ -29,7 +29,7 @@ TESTS = {
     "shapes": ("alike across", "alike down", "one sign"),
     "spot": ("spot",),
 }
-"""Names of tests, and the kinds of `course.comparing.comparison.Found` that each looks for."""
+"""Names of tests, and the kinds of `course.engine.comparing.comparison.Found` that each looks for."""
 
 FEW = 0.5
 """Share of pixels that differ, below which noise is not what makes the difference: it would make nearly all differ."""
@@ -80,9 +80,9 @@ def compare(
 def _compare(
     a: Path, b: Path, significance: float, difference: Path | None, json_path: Path | None
 ) -> Comparison:
-    from course.comparing.comparison import compare as compare_pictures
-    from course.comparing.seen import seen
-    from course.formats.pictures.reading import LINEAR, read_picture
+    from course.engine.comparing.comparison import compare as compare_pictures
+    from course.engine.comparing.seen import seen
+    from course.engine.formats.pictures.reading import LINEAR, read_picture
 
     for source in (a, b):
         check_outputs([("--difference", difference)], [("--json", json_path)], source)
@@ -96,13 +96,13 @@ def _compare(
         raise CourseError(f"{a}, {b}: {error}") from error
     differences = seen(found, significance)
     if difference is not None:
-        from course.comparing.difference import difference_picture
-        from course.formats.pictures.files import write_png
+        from course.engine.comparing.difference import difference_picture
+        from course.engine.formats.pictures.files import write_png
 
         write_png(difference, difference_picture(first, second, differences))
     print_sections(f"{a} - {b}", _sections(found, differences, significance))
     if json_path is not None:
-        from course.atomic import write_text
+        from course.base.atomic import write_text
 
         told = {"a": str(a), "b": str(b), "significance": significance}
         write_text(

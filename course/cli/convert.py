@@ -4,9 +4,9 @@ from pathlib import Path
 
 import click
 
+from course.base.errors import OutputError
 from course.cli import options
 from course.cli.outputs import check_outputs
-from course.errors import OutputError
 
 
 @click.command()
@@ -25,7 +25,7 @@ def convert(scene: Path, out: Path | None) -> None:
     scene are written to the folder FILE.meshes, mesh files stay where they are. What isn't known
     is named in a warning.
     """
-    from course.formats.metu.converting import convert as convert_scene
+    from course.engine.formats.metu.converting import convert as convert_scene
 
     out = Path(f"{scene.stem}.yaml") if out is None else out
     if out.suffix.lower() not in (".yaml", ".yml"):

@@ -9,16 +9,16 @@ from typing import Any
 
 import click
 
-from course import __version__
-from course.atomic import make_folder, write_text
+from course.base.atomic import make_folder, write_text
+from course.base.errors import EffectError
+from course.base.version import __version__
 from course.cli.metu import check_not_metu
 from course.cli.options import INTERRUPTED, PATH
 from course.cli.outputs import check_distinct, check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import Section, count, print_sections, receipt_sections
-from course.effects import PROJECT
-from course.errors import EffectError
-from course.modules import MODULES
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import MODULES
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Card:
     title : what it shows
     file : name of the picture's file, relative to the page; the picture links to it
     png : bytes, the PNG itself, shown by the page
-    receipt : as `course.jobs.receipt.Receipt.to_dict` gives it
+    receipt : as `course.engine.render.receipt.Receipt.to_dict` gives it
     size : (int, int), width and height [pixels]
     """
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.base.errors import CourseError
 from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
 from course.cli.options import FAILED, OUT_FOLDER, choice_options
 from course.cli.tables import count
-from course.errors import CourseError
 
 if TYPE_CHECKING:
-    from course.grading.classes.grading import ClassResult
+    from course.school.grading.classes.grading import ClassResult
 
 
 @click.command()
@@ -34,8 +34,8 @@ def grade(
     Each student gets a folder in --out, and the class grades.csv and class.html. What can't be graded has a row that
     says why. After an interruption the same command goes on where it stopped.
     """
-    from course.grading.classes.grading import grade_class
-    from course.grading.classes.settings import Settings
+    from course.school.grading.classes.grading import grade_class
+    from course.school.grading.classes.settings import Settings
 
     settings = Settings(seed, modules, submission_seconds=options.submission_seconds)
     settings = settings.instead(options.policy, options.roster, options.title)
@@ -45,7 +45,7 @@ def grade(
 
 
 def _tell(result: ClassResult) -> None:
-    from course.grading.report import as_points
+    from course.school.grading.report import as_points
 
     tell_submissions(result)
     for report in result.reports:

@@ -7,7 +7,7 @@ import click
 from course.cli import options
 from course.cli.metu import check_camera, converted, told_of, without_place
 from course.cli.tables import Section, print_sections, summary_sections
-from course.formats.metu.suffixes import is_metu
+from course.engine.formats.metu.suffixes import is_metu
 
 
 @click.command()
@@ -34,7 +34,7 @@ def info(scene: Path, effects: str | None, camera: str | None) -> None:
 def _sections(scene: Path, file: Path, effects: str | None) -> list[Section]:
     """The summary of a file, in which places are told of the scene that the user has given."""
     from course import load_scene
-    from course.rendering.summary import summarize
+    from course.engine.render.summary import summarize
 
     with told_of(scene, file):
         sections = summary_sections(summarize(load_scene(file, effects=effects)))

@@ -19,12 +19,12 @@ from typing import TextIO
 
 import click
 
-from course import __version__
+from course.base.errors import CourseError, CourseWarning
+from course.base.processes import READ_THERE, stay_apart
+from course.base.texts import clean
+from course.base.version import __version__
 from course.cli.options import INTERRUPTED
-from course.effects import CHECKOUT
-from course.errors import CourseError, CourseWarning
-from course.processes import READ_THERE, stay_apart
-from course.texts import clean
+from course.engine.functions.effects import CHECKOUT
 
 SECTIONS = {
     "Learn": ("start", "check", "status", "studio", "portfolio"),
@@ -85,7 +85,7 @@ class Commands(click.Group):
         try:
             return super().resolve_command(ctx, args)
         except click.UsageError as error:
-            from course.modules import meant
+            from course.engine.functions.modules import meant
 
             if not (near := meant(args[0], COMMANDS)):
                 raise

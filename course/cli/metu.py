@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.errors import CourseError, Ended, SceneError
-from course.formats.metu.suffixes import is_metu
+from course.base.errors import CourseError, Ended, SceneError
+from course.engine.formats.metu.suffixes import is_metu
 
 ENDS = ("SIGTERM", "SIGHUP")
 """Signals that end a process, and have no exception as Ctrl-C has; not every system has both."""
@@ -84,7 +84,7 @@ class _End:
 
 
 if TYPE_CHECKING:
-    from course.formats.metu.converting import Converted
+    from course.engine.formats.metu.converting import Converted
 
 
 def check_not_metu(scene: Path, command: str) -> None:
@@ -115,7 +115,7 @@ def converted(scene: Path, camera: str | None) -> Iterator[list[Converted]]:
     SceneError
         A mistake in the scene.
     """
-    from course.formats.metu.converting import convert
+    from course.engine.formats.metu.converting import convert
 
     with temporary_folder() as folder:
         found, warnings = convert(scene, folder / "scene.yaml")
@@ -136,7 +136,7 @@ def told_of(scene: Path, file: Path) -> Iterator[None]:
     except SceneError as error:
         if file == scene:
             raise
-        from course.formats.metu.converting import retold
+        from course.engine.formats.metu.converting import retold
 
         raise retold(error, scene, file) from error
 

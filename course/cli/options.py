@@ -11,9 +11,9 @@ from pathlib import Path
 
 import click
 
-from course.effects import CHECKOUT, begin, own_assignments
-from course.errors import CourseError
-from course.modules import COURSE, meant
+from course.base.errors import CourseError
+from course.engine.functions.effects import CHECKOUT, begin, own_assignments
+from course.engine.functions.modules import COURSE, meant
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells have it."""

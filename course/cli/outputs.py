@@ -13,11 +13,11 @@ from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from course.atomic import check_writable
-from course.errors import OutputError
+from course.base.atomic import check_writable
+from course.base.errors import OutputError
 
 if TYPE_CHECKING:
-    from course.formats.yaml.loading import Loaded
+    from course.engine.formats.yaml.loading import Loaded
 
 Named = tuple[str, Path | None]
 """The option for an output, such as -o, and its path; None where it isn't asked for."""
@@ -41,7 +41,7 @@ def check_outputs(
     for _, path in pictures:
         if path is not None:
             # With the picture formats comes NumPy, which other commands don't need yet.
-            from course.formats.pictures.files import check_picture_path
+            from course.engine.formats.pictures.files import check_picture_path
 
             check_picture_path(path)
     for _, path in files:
@@ -71,7 +71,7 @@ def check_distinct(outputs: Sequence[Named], source: Path | None = None) -> None
 def check_spared(outputs: Sequence[Named], loaded: Loaded) -> None:
     """Raise OutputError where an output is a file that a scene, which has been read, names: a mesh or a picture."""
     # A command that writes one scene's pictures has read it with this module.
-    from course.formats.yaml.named_files import named_files
+    from course.engine.formats.yaml.named_files import named_files
 
     for name in named_files(loaded.description, loaded.path.parent):
         check_distinct(outputs, loaded.path.parent / name)

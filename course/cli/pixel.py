@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.atomic import write_text
+from course.base.atomic import write_text
 from course.cli import options
 from course.cli.metu import check_not_metu
 from course.cli.outputs import check_outputs
 
 if TYPE_CHECKING:
-    from course.recording.story import Line
+    from course.engine.recording.story import Line
 
 
 _PLACE = r"([0-9]{1,5}),([0-9]{1,5})(?:,([1-9][0-9]{0,4})[xX]([1-9][0-9]{0,4}))?"
@@ -66,11 +66,11 @@ def pixel(
     """
     check_not_metu(scene, "pixel")
     check_outputs(files=[("--html", html)], source=scene)
-    from course.recording.pixel import pixel as tell
+    from course.engine.recording.pixel import pixel as tell
 
     story = tell(scene, *place, spp=spp, size=size, seed=seed, effects=effects)
     if html is not None:
-        from course.recording.view import page
+        from course.engine.recording.view import page
 
         write_text(html, page(story))
     if as_json:

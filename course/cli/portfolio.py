@@ -6,10 +6,10 @@ from pathlib import Path
 
 import click
 
-from course.atomic import write_text
+from course.base.atomic import write_text
 from course.cli.options import FOLDER, PATH, folder_option, modules_argument, seconds
 from course.cli.outputs import check_outputs
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 
 @click.command()
@@ -37,9 +37,9 @@ def portfolio(
     no network.
     """
     check_outputs(files=[("-o", output)])
-    from course.effects import Effects
-    from course.grading.progress import progress
-    from course.grading.reports.portfolio import portfolio as page
+    from course.engine.functions.effects import Effects
+    from course.school.grading.progress import progress
+    from course.school.grading.reports.portfolio import portfolio as page
 
     def say(doing: str) -> None:
         click.echo(doing, err=True)

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import click
 
+from course.base.errors import CourseError
 from course.cli.options import OUT_FOLDER, modules_from
 from course.cli.tables import count
-from course.effects import CHECKOUT, PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import CHECKOUT, PROJECT
 
 DRAWN_BY = PROJECT / "docs"
 """The folder of the package that draws the site's figures, and those of questions."""
@@ -37,7 +37,7 @@ def quiz(out: Path, modules: tuple[str, ...], held_back: bool) -> None:
     OUT gets files for Canvas (QTI 1.2), Moodle, PrairieLearn and whatever else reads QTI 2.1, and a README.md that
     says how to import them. Pictures are drawn now; answers that can't be told apart by measurement are refused.
     """
-    from course.grading.release.archive import check_folder, write_folder
+    from course.school.grading.release.archive import check_folder, write_folder
 
     if not (PROJECT / "solutions" / "quizzes").is_dir():
         raise CourseError("questions are made from the solutions, and this copy has none")

@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from course.base.errors import CourseError
 from course.cli import options
 from course.cli.metu import check_not_metu
 from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
-from course.errors import CourseError
-from course.modules import COURSE
+from course.engine.functions.modules import COURSE
 
 if TYPE_CHECKING:
-    from course.radiosity.viewing import Solution, View
+    from course.engine.radiosity.viewing import Solution, View
 
 NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 POINT = rf"\s*({NUMBER})\s*,\s*({NUMBER})\s*,\s*({NUMBER})\s*"
@@ -135,12 +135,12 @@ def radiosity(
 
 
 def _solution(scene: Path, effects: str | None, given: dict[str, Any]) -> Solution:
-    from course.radiosity.viewing import load_solution
+    from course.engine.radiosity.viewing import load_solution
 
     if scene.suffix.lower() == ".npz":
         return load_solution(scene)
     from course import load_scene
-    from course.radiosity.radiosity import solve
+    from course.engine.radiosity.radiosity import solve
 
     loaded = load_scene(scene, effects=effects)
     with progress_bar(scene.stem) as report:
@@ -164,7 +164,7 @@ def _views(
 ) -> list[View]:
     import numpy as np
 
-    from course.radiosity.viewing import flight, own_view, views_of
+    from course.engine.radiosity.viewing import flight, own_view, views_of
 
     if not cameras:
         return [own_view(solution)]
@@ -175,8 +175,8 @@ def _views(
 def _write_pictures(
     solution: Solution, views: Sequence[View], out: Path, size: tuple[int, int] | None
 ) -> None:
-    from course.formats.pictures.files import save
-    from course.radiosity.viewing import look
+    from course.engine.formats.pictures.files import save
+    from course.engine.radiosity.viewing import look
 
     width, height = size or (int(solution.size[0]), int(solution.size[1]))
     digits = max(len(str(len(views) - 1)), 3)

@@ -7,8 +7,8 @@ import click
 from course.cli.options import OUT_FILE
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
-from course.effects import PACKAGE
-from course.modules import COURSE
+from course.engine.functions.effects import PACKAGE
+from course.engine.functions.modules import COURSE
 
 
 @click.command()
@@ -18,13 +18,13 @@ from course.modules import COURSE
 @click.option(
     "--out",
     type=OUT_FILE,
-    default=PACKAGE / "grading" / "data" / "references.npz",
+    default=PACKAGE / "school" / "grading" / "data" / "references.npz",
     show_default="where `course check` reads them",
 )
 def references(seed: int, out: Path) -> None:
     """Make the reference pictures and arrays of all checks with the solutions, and write them as one file."""
-    from course.grading.pictures.whole import NAME
-    from course.grading.references import make_references
+    from course.school.grading.pictures.whole import NAME
+    from course.school.grading.references import make_references
 
     check_outputs(files=[("--out", out)])
     arrays = make_references((*COURSE, NAME), seed, out)

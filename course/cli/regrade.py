@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.base.errors import CourseError
 from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
 from course.cli.options import FOLDER
 from course.cli.tables import count
-from course.errors import CourseError
 
 if TYPE_CHECKING:
-    from course.grading.checks.result import Result
-    from course.grading.classes.regrading import Change
-    from course.grading.report import Report
+    from course.school.grading.checks.result import Result
+    from course.school.grading.classes.regrading import Change
+    from course.school.grading.report import Report
 
 
 @click.command()
@@ -30,9 +30,9 @@ def regrade(submissions: Path, out: Path, dry_run: bool, options: ClassOptions) 
     Seed, modules, policy, roster and seconds are those of the grading before. What --dry-run has graded is kept, so
     that the same command without it only has to apply that.
     """
-    from course.grading.classes.regrading import apply
-    from course.grading.classes.regrading import regrade as grade_again
-    from course.grading.classes.settings import read_settings
+    from course.school.grading.classes.regrading import apply
+    from course.school.grading.classes.regrading import regrade as grade_again
+    from course.school.grading.classes.settings import read_settings
 
     settings = read_settings(out, options.submission_seconds)
     settings = settings.instead(options.policy, options.roster, options.title)
@@ -75,7 +75,7 @@ def _tell_all(changes: tuple[Change, ...], students: int, dry_run: bool) -> None
 
 
 def _score(report: Report | None) -> str:
-    from course.grading.report import as_points
+    from course.school.grading.report import as_points
 
     if report is None:
         return "not graded before"
@@ -85,7 +85,7 @@ def _score(report: Report | None) -> str:
 
 
 def _ended(result: Result | None) -> str:
-    from course.grading.report import as_points
+    from course.school.grading.report import as_points
 
     if result is None:
         return "no such check"

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.atomic import make_folder, write_text
+from course.base.atomic import make_folder, write_text
+from course.base.errors import OutputError
 from course.cli.options import PATH
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
-from course.effects import CHECKOUT, PROJECT
-from course.errors import OutputError
+from course.engine.functions.effects import CHECKOUT, PROJECT
 
 if TYPE_CHECKING:
-    from course.grading.release.stubs import Stub
+    from course.school.grading.release.stubs import Stub
 
 SOLUTIONS = PROJECT / "solutions"
 ASSIGNMENTS = (PROJECT if CHECKOUT else Path()) / "assignments"
@@ -41,12 +41,12 @@ def release(check: bool, force: bool, out: Path | None, site: Path | None) -> No
 
     A stub is its solution without what stands between ### BEGIN SOLUTION and ### END SOLUTION.
     """
-    from course.grading.release.stubs import make_stubs
+    from course.school.grading.release.stubs import make_stubs
 
     if site is not None and out is None:
         raise click.UsageError("--site is put into the archive of --out")
     if out is not None:
-        from course.grading.release.archive import write_archive
+        from course.school.grading.release.archive import write_archive
 
         if out.suffix == ".zip":
             # Before the references are made, which takes a while. A folder is made where there is none.

@@ -12,20 +12,20 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from course.atomic import write_text
+from course.base.atomic import write_text
+from course.base.errors import CourseError, OutputError
 from course.cli import options
 from course.cli.metu import check_camera, converted, told_of
 from course.cli.outputs import check_outputs, check_spared
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
 from course.cli.watching import run_again_and_again, times
-from course.effects import Effects
-from course.errors import CourseError, OutputError
-from course.formats.metu.suffixes import is_metu
+from course.engine.formats.metu.suffixes import is_metu
+from course.engine.functions.effects import Effects
 
 if TYPE_CHECKING:
-    from course.jobs.picture import Picture
-    from course.scene.scene import Settings
+    from course.engine.render.picture import Picture
+    from course.engine.scene.scene import Settings
 
 SAMPLERS = (
     *("sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift"),
@@ -140,8 +140,8 @@ def render(
 @cache
 def _named(scene: Path, _saved: int) -> list[Path]:
     """The files that a scene names, as it was saved then; none where it can't be read."""
-    from course.formats.yaml.loading import load_description
-    from course.formats.yaml.named_files import named_files
+    from course.engine.formats.yaml.loading import load_description
+    from course.engine.formats.yaml.named_files import named_files
 
     if is_metu(scene):
         return []
@@ -202,10 +202,10 @@ def _render_one(
     """Render one scene file to one picture; `scene` is what messages call it."""
     from course import load_scene
     from course import render as render_picture
-    from course.jobs.job import EXTENSIBLE
-    from course.render_scene import reads_loops_first
-    from course.rendering.reading_ahead import ReadingAhead
-    from course.scene.darkness import warn_of_darkness
+    from course.engine.render.job import EXTENSIBLE
+    from course.engine.render.reading_ahead import ReadingAhead
+    from course.engine.render.render import reads_loops_first
+    from course.engine.scene.darkness import warn_of_darkness
 
     began, ahead, here = monotonic(), ReadingAhead(), Path.cwd()
 
@@ -249,7 +249,7 @@ def _render_one(
             err=True,
         )
     if heat_map is not None and "tests" in receipt:
-        from course.rendering.box_tests import save_box_tests
+        from course.engine.render.box_tests import save_box_tests
 
         save_box_tests(world, picture.settings, heat_map)
     elif heat_map is not None:
@@ -276,8 +276,8 @@ def _why_black(picture: Picture, out: Path) -> str:
 
 def _check_error(scene: Path, sampler: str, samples: int, choices: dict[str, Any]) -> None:
     """A METU scene has a grid of samples, which nobody chose who asks for an error to be aimed at."""
-    from course.adaptive.allocation import FIRST
-    from course.adaptive.rounds import ADAPTABLE
+    from course.engine.render.adaptive.allocation import FIRST
+    from course.engine.render.adaptive.rounds import ADAPTABLE
 
     if choices["error"] is None or choices["sampler"] is not None or sampler in ADAPTABLE:
         return

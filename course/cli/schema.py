@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from course.atomic import write_text
+from course.base.atomic import write_text
 from course.cli import options
 
 
@@ -24,7 +24,7 @@ def schema(out: Path | None) -> None:
     the top of a scene completes its keys and marks mistakes; FILE.json is relative to the scene.
     `course schema -o scenes/scene.schema.json` writes the one that scenes/still_life.yaml names.
     """
-    from course.formats.yaml.schema import json_schema
+    from course.engine.formats.yaml.schema import json_schema
 
     text = json.dumps(json_schema(), indent=2) + "\n"
     if out is None:

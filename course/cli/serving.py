@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from course.studio.studio import Studio
+    from course.school.studio.studio import Studio
 
 
 port_option = click.option(
@@ -22,7 +22,7 @@ port_option = click.option(
 
 def serve(studio: Studio, no_browser: bool, port: int | None) -> None:
     """Start it, print its address, open a browser, and wait."""
-    from course.studio.server import Server
+    from course.school.studio.server import Server
 
     ended = threading.Event()
 

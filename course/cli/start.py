@@ -8,10 +8,10 @@ from shlex import quote
 
 import click
 
+from course.base.errors import CourseError
 from course.cli.options import PATH
 from course.cli.tables import count
-from course.effects import PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import PROJECT
 
 TEACHING = "docs/guides/teaching.md"
 """The page for who plans a course; its tables are made, on the site and for instructors."""
@@ -25,9 +25,15 @@ def start(folder: Path, instructor: bool) -> None:
 
     FOLDER must be new or empty.
     """
-    from course.grading.release.archive import LICENSES, PAGES, SCENES, project_files, write_folder
-    from course.grading.release.folder import made_contents
-    from course.grading.release.pages import plain_pages
+    from course.school.grading.release.archive import (
+        LICENSES,
+        PAGES,
+        SCENES,
+        project_files,
+        write_folder,
+    )
+    from course.school.grading.release.folder import made_contents
+    from course.school.grading.release.pages import plain_pages
 
     if not (PROJECT / "solutions").is_dir():
         raise CourseError("this is a student's copy: its stubs are in assignments/ already")

@@ -12,7 +12,7 @@ import click
 from course.cli.options import folder_option, modules_argument
 
 if TYPE_CHECKING:
-    from course.grading.progress import Progress
+    from course.school.grading.progress import Progress
 
 
 @click.command()
@@ -25,8 +25,8 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
     Files that have changed since they were checked last are checked; what was found is kept in
     the folder, in .course/checked.json.
     """
-    from course.grading.progress import as_data, next_one, progress
-    from course.modules import TAUGHT
+    from course.engine.functions.modules import TAUGHT
+    from course.school.grading.progress import as_data, next_one, progress
 
     def before(module: str) -> None:
         if not as_json:
@@ -90,7 +90,7 @@ def _row(functions: list[Progress]) -> tuple[str, str, str, str]:
 
 
 def _points(functions: list[Progress]) -> str:
-    from course.grading.report import as_points
+    from course.school.grading.report import as_points
 
     return f"{as_points(sum(o.points for o in functions))} of {as_points(sum(o.of for o in functions))}"
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import click
 
+from course.base.errors import CourseError
 from course.cli import options
 from course.cli.metu import check_not_metu
 from course.cli.serving import port_option, serve
-from course.effects import PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import PROJECT
 
 
 @click.command()
@@ -33,7 +33,7 @@ def studio(
     functions, beside the course's, and your functions are checked. Without SCENE it is that of the
     module, or soft_shadows. Ctrl-C ends it.
     """
-    from course.studio.studio import Studio
+    from course.school.studio.studio import Studio
 
     if scene is None:
         scene = _scene_of(module or "soft_shadows")

@@ -62,7 +62,7 @@ def _print_rich(title: str, sections: Sequence[Section]) -> None:
 def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     """Arrange what a render cost.
 
-    ``receipt``: as `course.jobs.receipt.Receipt.to_dict` gives it.
+    ``receipt``: as `course.engine.render.receipt.Receipt.to_dict` gives it.
     Sections without a row are left out.
     """
     rays = receipt["rays"]

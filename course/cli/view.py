@@ -21,7 +21,7 @@ def view(scene: Path, no_browser: bool, port: int | None) -> None:
     Opens a page on this machine. The scene file stays as it is; the page shows its camera as YAML,
     and writes a new file beside it when you ask for one. Ctrl-C ends it.
     """
-    from course.studio.studio import Studio
+    from course.school.studio.studio import Studio
 
     check_not_metu(scene, "view")
     serve(Studio(scene, None), no_browser, port)

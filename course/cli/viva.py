@@ -4,13 +4,13 @@ from pathlib import Path
 
 import click
 
-from course.atomic import write_text
+from course.base.atomic import write_text
+from course.base.errors import CourseError
 from course.cli.classes import trust_option
 from course.cli.options import OUT_FILE, modules_from
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
-from course.effects import PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import PROJECT
 
 QUESTIONS = 3
 
@@ -35,11 +35,11 @@ def viva(
     Each changes one place in a function that is right, makes the change, and says what comes of it. The answers are
     for the instructor. The student's code runs as in `course grade`.
     """
-    from course.grading.classes.submitted import read_one
-    from course.grading.references import references
-    from course.grading.viva.asking import viva as questions
-    from course.grading.worker.sandbox import protected, sandbox
-    from course.texts import clean
+    from course.base.texts import clean
+    from course.school.grading.classes.submitted import read_one
+    from course.school.grading.references import references
+    from course.school.grading.viva.asking import viva as questions
+    from course.school.grading.worker.sandbox import protected, sandbox
 
     solutions = PROJECT / "solutions"
     if not solutions.is_dir():
@@ -73,8 +73,8 @@ def viva(
     if len(asked) < QUESTIONS:
         click.echo(f"\nonly {count(len(asked), 'question')}: too few functions are right", err=True)
     if html is not None:
-        from course.grading.report import Report
-        from course.grading.reports.viva import viva_page
+        from course.school.grading.report import Report
+        from course.school.grading.reports.viva import viva_page
 
         unprotected = Report("", (), protections=shut_in.protections).unprotected
         write_text(html, viva_page(submission.resolve().stem, asked, unprotected))

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 import click
 
-from course.processes import environment_apart
+from course.base.processes import environment_apart
 
 POLL = 0.4
 """Seconds between two looks at the files."""
@@ -24,7 +24,7 @@ SAID = (0, 1, 2)
 PROGRAM = """
 import signal, sys
 signal.signal(signal.SIGINT, signal.SIG_IGN)
-import course.render_scene
+import course.engine.render.render
 from course.cli.main import main
 if sys.stdin.readline():
     signal.signal(signal.SIGINT, signal.default_int_handler)

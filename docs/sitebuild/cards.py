@@ -3,7 +3,7 @@
 import re
 from html import escape
 
-from course.modules import TAUGHT
+from course.engine.functions.modules import TAUGHT
 from sitebuild import pictures
 from sitebuild.objectives import title
 from sitebuild.place import Place

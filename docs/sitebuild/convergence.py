@@ -8,10 +8,10 @@ from html import escape
 
 import msgspec
 
+from course.base.errors import CourseError
 from course.benchmarking.plot_data import Plot, Record, read_records
 from course.benchmarking.tables import digits
-from course.effects import PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import PROJECT
 from sitebuild.convergence_plot import amount, svg, swatch
 from sitebuild.place import Place
 

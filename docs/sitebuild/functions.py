@@ -1,6 +1,6 @@
 """The functions that students write, from the docstrings of their stubs."""
 
-from course.modules import COURSE
+from course.engine.functions.modules import COURSE
 from sitebuild.place import Place
 
 

@@ -10,12 +10,12 @@ import numpy as np
 from PIL import Image
 
 from course import load_scene, render
-from course.atomic import replacing
-from course.core.types import Indices
-from course.formats.pictures.display import heat_map as colours
-from course.formats.pictures.display import linear_to_srgb8
-from course.formats.pictures.files import save
-from course.rendering.box_tests import box_tests
+from course.base.atomic import replacing
+from course.engine.core.types import Indices
+from course.engine.formats.pictures.display import heat_map as colours
+from course.engine.formats.pictures.display import linear_to_srgb8
+from course.engine.formats.pictures.files import save
+from course.engine.render.box_tests import box_tests
 from sitebuild import pictures, webp
 from sitebuild.place import Place
 from sitebuild.shots import image

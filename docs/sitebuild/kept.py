@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterable
 from pathlib import Path
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 DOCS = PROJECT / "docs"
 ROOT = PROJECT / "out" / "docs"

@@ -14,7 +14,7 @@ from PIL import Image
 
 from course import load_scene, render
 from course.benchmarking.references import engine_hash
-from course.effects import PROJECT, Effects
+from course.engine.functions.effects import PROJECT, Effects
 from sitebuild import webp
 from sitebuild.key_headings import link
 from sitebuild.key_variants import COMMON, HEAT_MAPS, VARIANTS, Changes

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 from sitebuild.place import Place
 
 SCRIPT = Path(__file__).parents[1] / "_static" / "live.js"

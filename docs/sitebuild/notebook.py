@@ -12,9 +12,9 @@ from typing import Any
 import click
 from PIL import Image
 
-from course.atomic import replacing
+from course.base.atomic import replacing
 from course.benchmarking.references import engine_hash
-from course.effects import PROJECT, Effects
+from course.engine.functions.effects import PROJECT, Effects
 from sitebuild import webp
 from sitebuild.place import Place
 

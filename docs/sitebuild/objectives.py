@@ -5,7 +5,7 @@
 
 from collections.abc import Iterator
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 from sitebuild.place import Place
 from sitebuild.teaching_file import Module, minutes, teaching
 

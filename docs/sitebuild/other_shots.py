@@ -11,10 +11,10 @@ import click
 from PIL import Image
 
 from course import load_scene, render
-from course.atomic import replacing
+from course.base.atomic import replacing
+from course.base.errors import SceneError
 from course.benchmarking.references import engine_hash
-from course.effects import PROJECT, Effects
-from course.errors import SceneError
+from course.engine.functions.effects import PROJECT, Effects
 from sitebuild import pictures, webp
 from sitebuild.place import Place
 from sitebuild.shots import laid_out
@@ -52,9 +52,9 @@ def radiosity_shot(place: Place, name: str, words: str = "") -> str:
     command = f"course radiosity scenes/{name}.yaml --patches {PATCHES} --size {width}x{height} -o room.png"
 
     def make() -> Made:
-        from course.formats.pictures.files import save
-        from course.radiosity.radiosity import solve
-        from course.radiosity.viewing import look, own_view
+        from course.engine.formats.pictures.files import save
+        from course.engine.radiosity.radiosity import solve
+        from course.engine.radiosity.viewing import look, own_view
 
         solution = solve(load_scene(scene), patches=PATCHES)
         with TemporaryDirectory(prefix="course-") as folder:
@@ -70,7 +70,7 @@ def radiosity_shot(place: Place, name: str, words: str = "") -> str:
 
 
 def _converted(scene: Path, camera: str, folder: Path) -> Path:
-    from course.formats.metu.converting import convert
+    from course.engine.formats.metu.converting import convert
 
     converted, _ = convert(scene, folder / "scene.yaml")
     for one in converted:

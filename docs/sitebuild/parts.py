@@ -15,7 +15,7 @@ from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.errors import ExtensionError
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 from sitebuild import kept, pictures
 from sitebuild.cards import cards
 from sitebuild.command_line import command_line

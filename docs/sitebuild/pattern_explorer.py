@@ -9,10 +9,10 @@ from html import escape
 
 import numpy as np
 
-from course.core.types import Floats32, Floats64
-from course.effects import PROJECT, Effects
-from course.errors import CourseError
-from course.extras.samplers.sobol import sobol_words
+from course.base.errors import CourseError
+from course.engine.core.types import Floats32, Floats64
+from course.engine.functions.effects import PROJECT, Effects
+from course.engine.terms.samplers.sobol import sobol_words
 from sitebuild.place import Place
 
 PATTERNS = ("regular", "random", "jittered", "sobol", "scrambled", "halton", "hammersley")

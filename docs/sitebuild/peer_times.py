@@ -8,10 +8,10 @@ from collections.abc import Iterable
 from html import escape
 from typing import Any
 
+from course.base.errors import CourseError
 from course.benchmarking.labels import plain, ticks
 from course.benchmarking.tables import digits
-from course.effects import PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import PROJECT
 from sitebuild.convergence_plot import LETTER, MARKS, WIDTH, Scale
 from sitebuild.place import Place
 

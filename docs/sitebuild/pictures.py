@@ -9,11 +9,11 @@ from typing import Any
 import click
 
 from course import load_scene, render
-from course.atomic import replacing
+from course.base.atomic import replacing
 from course.benchmarking.references import scene_hash
 from course.cli.tables import plain_text, receipt_sections
-from course.effects import PROJECT, Effects
-from course.formats.yaml.loading import Loaded, load_description
+from course.engine.formats.yaml.loading import Loaded, load_description
+from course.engine.functions.effects import PROJECT, Effects
 from sitebuild import webp
 
 KEPT = PROJECT / "out" / "docs" / "pictures"

@@ -1,6 +1,6 @@
 """Tables for who plans a course: ``<!-- site: plan six weeks -->`` of weeks, ``<!-- site: minutes -->`` of modules."""
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 from sitebuild.objectives import title
 from sitebuild.place import Place
 from sitebuild.teaching_file import minutes, teaching

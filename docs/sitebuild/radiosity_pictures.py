@@ -18,10 +18,10 @@ from sitebuild.picture_grid import Cell, grid
 from sitebuild.place import Place
 
 if TYPE_CHECKING:
-    from course.radiosity.patches import Patches
-    from course.radiosity.solving import Solved
-    from course.radiosity.viewing import Solution, View
-    from course.scene.scene import Scene
+    from course.engine.radiosity.patches import Patches
+    from course.engine.radiosity.solving import Solved
+    from course.engine.radiosity.viewing import Solution, View
+    from course.engine.scene.scene import Scene
 
 Method = Literal["gather", "shoot"]
 
@@ -70,8 +70,8 @@ def radiosity_flight(place: Place, name: str, words: str = "") -> str:
         import numpy as np
 
         from course import load_scene
-        from course.radiosity.radiosity import solve
-        from course.radiosity.viewing import flight, views_of
+        from course.engine.radiosity.radiosity import solve
+        from course.engine.radiosity.viewing import flight, views_of
 
         solution = solve(load_scene(pictures.scene_path(name)), patches=FLOWN)
         ends = [(np.array(eye), np.array(at)) for eye, at in EYES]
@@ -105,7 +105,7 @@ class Room:
     def after(self, method: Method, steps: int) -> Solution:
         """The light after so many iterations or shots."""
         from course import load_scene
-        from course.radiosity.radiosity import as_solution, solve
+        from course.engine.radiosity.radiosity import as_solution, solve
 
         if method == "gather":
             scene, patches, solved = self._gathered
@@ -117,8 +117,8 @@ class Room:
     def _gathered(self) -> tuple[Scene, Patches, list[Solved]]:
         """The scene in patches, and the light of these after each iteration."""
         from course import load_scene
-        from course.radiosity.patches import Functions, make_patches
-        from course.radiosity.radiosity import solve_patches
+        from course.engine.radiosity.patches import Functions, make_patches
+        from course.engine.radiosity.radiosity import solve_patches
 
         scene = load_scene(pictures.scene_path(self.name))
         patches, functions = make_patches(scene, GATHERED), Functions(scene.effects)
@@ -141,7 +141,7 @@ def step(place: Place, room: Room, method: Method, steps: int) -> Cell:
     line = command(room.name, method, steps)
 
     def make() -> other_shots.Made:
-        from course.radiosity.viewing import own_view
+        from course.engine.radiosity.viewing import own_view
 
         solution = room.after(method, steps)
         return _seen(solution, own_view(solution)), line
@@ -178,8 +178,8 @@ def _kept(
 
 
 def _seen(solution: Solution, view: View) -> Image.Image:
-    from course.formats.pictures.display import linear_to_srgb8
-    from course.radiosity.viewing import look
+    from course.engine.formats.pictures.display import linear_to_srgb8
+    from course.engine.radiosity.viewing import look
 
     return Image.fromarray(linear_to_srgb8(look(solution, view, *SIZE)))
 

@@ -4,8 +4,8 @@ from functools import cache
 from html import escape
 
 from course import pixel
-from course.errors import CourseError
-from course.recording.view import page
+from course.base.errors import CourseError
+from course.engine.recording.view import page
 from sitebuild.pictures import scene_path
 from sitebuild.place import Place
 

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from course.formats.yaml.schema import json_schema
+from course.engine.formats.yaml.schema import json_schema
 from sitebuild.key_headings import heading, link
 from sitebuild.key_pictures import key_pictures
 from sitebuild.place import Place

@@ -8,9 +8,9 @@ from typing import Annotated, Any
 
 import msgspec
 
-from course.errors import CourseError
-from course.formats.yaml.document import KeyPath
-from course.formats.yaml.overriding import Overrides
+from course.base.errors import CourseError
+from course.engine.formats.yaml.document import KeyPath
+from course.engine.formats.yaml.overriding import Overrides
 
 FILE = Path(__file__).parents[1] / "series.yaml"
 

@@ -9,10 +9,10 @@ from PIL import Image
 
 from course import render
 from course.benchmarking.references import scene_hash
-from course.effects import PROJECT, Effects
-from course.formats.yaml.document import spell
-from course.formats.yaml.loading import Loaded, load_description
-from course.scene.scene import Scene, load_variant
+from course.engine.formats.yaml.document import spell
+from course.engine.formats.yaml.loading import Loaded, load_description
+from course.engine.functions.effects import PROJECT, Effects
+from course.engine.scene.scene import Scene, load_variant
 from sitebuild import pictures, webp
 from sitebuild.place import Place
 from sitebuild.series_file import PATTERN, SAMPLES, Series

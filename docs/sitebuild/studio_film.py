@@ -4,7 +4,7 @@ from html import escape
 
 from PIL import Image
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from sitebuild.place import Place
 
 FILM = PROJECT / "docs" / "_static" / "studio.webp"

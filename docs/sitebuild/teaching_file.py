@@ -8,7 +8,7 @@ from typing import Annotated
 
 import msgspec
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 
 DOCS = Path(__file__).parents[1]
 FILE = DOCS / "teaching.yaml"

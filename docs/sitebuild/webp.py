@@ -7,7 +7,7 @@ from pathlib import Path
 from PIL import Image
 
 from course import Picture
-from course.atomic import replacing
+from course.base.atomic import replacing
 
 GREY = (128, 128, 128)
 

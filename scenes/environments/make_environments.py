@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from course.formats.pictures.files import save
+from course.engine.formats.pictures.files import save
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).parent

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from course.base.errors import OutputError
 from course.benchmarking.documents import (
     MARK,
     NAMES,
@@ -16,8 +17,7 @@ from course.benchmarking.documents import (
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.measuring import FULL, QUICK
 from course.benchmarking.plot_data import read_records
-from course.effects import PROJECT
-from course.errors import OutputError
+from course.engine.functions.effects import PROJECT
 from tests.benchmarking.curves import curve, measured
 
 BEGIN, END = "<!-- m: begin -->", "<!-- m: end -->"

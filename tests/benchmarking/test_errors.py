@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from course.base.errors import CourseError
 from course.benchmarking.errors import dissimilarity, relative_mse, rmse
-from course.errors import CourseError
 
 Measure = Callable[[Any, Any], float]
 MEASURES = (rmse, relative_mse, dissimilarity)

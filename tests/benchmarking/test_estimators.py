@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from course.benchmarking.estimators import BENCHED, Estimator, Module
-from course.core.types import Floats64
-from course.effects import PROJECT, Effects
-from course.formats.yaml import description as d
-from course.formats.yaml.loading import load_description
-from course.modules import MODULES
+from course.engine.core.types import Floats64
+from course.engine.formats.yaml import description as d
+from course.engine.formats.yaml.loading import load_description
+from course.engine.functions.effects import PROJECT, Effects
+from course.engine.functions.modules import MODULES
 
 ALL = [(module, estimator) for module in BENCHED.values() for estimator in module.estimators]
 IDS = [f"{module.name}: {estimator.name}" for module, estimator in ALL]

@@ -26,9 +26,10 @@ from benchmarks.mitsuba_export import (
 from benchmarks.mitsuba_llvm import LlvmScene
 from benchmarks.mitsuba_scalar import NativeScene, native_overrides
 from benchmarks.mitsuba_variants import start_scalar
-from course import Scene, render, shapes
-from course.effects import PROJECT
-from course.shapes.mesh import Mesh
+from course import Scene, render
+from course.engine import shapes
+from course.engine.functions.effects import PROJECT
+from course.engine.shapes.mesh import Mesh
 from tests.conftest import MakeScene
 from tests.tables import put, rows
 
@@ -167,7 +168,7 @@ def test_directions_of_the_picture_of_all_directions() -> None:
 def test_native_variants_ask_for_nothing_that_plugins_lack(effect: str) -> None:
     values, words = native_overrides(PROJECT / "scenes" / f"{effect}.yaml")
     assert "no highlights" in words
-    from course.scene.scene import load_variant
+    from course.engine.scene.scene import load_variant
 
     exported = export(load_variant(PROJECT / "scenes" / f"{effect}.yaml", values), *SIZE)
     assert not exported.materials.specular.any()

@@ -15,7 +15,7 @@ import pytest
 from benchmarks.mitsuba_variants import start_llvm
 from benchmarks.peer_agreement import with_mitsubas_masking
 from course import render
-from course.scene.scene import load_variant
+from course.engine.scene.scene import load_variant
 from tests.conftest import MakeScene
 
 WIDTH, HEIGHT, BATCHES, SAMPLES, LIMIT = 48, 32, 12, 64, 15.0

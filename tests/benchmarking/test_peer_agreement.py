@@ -17,7 +17,7 @@ from benchmarks.mitsuba_llvm import LlvmScene
 from benchmarks.peer_agreement import DOCUMENT, cases, measure, read, table
 from benchmarks.peer_scenes import scene_path
 from course import load_scene
-from course.modules import COURSE
+from course.engine.functions.modules import COURSE
 
 LIMIT = 10.0
 

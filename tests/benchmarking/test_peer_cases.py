@@ -23,7 +23,7 @@ from benchmarks.peer_document import MARK, write_document
 from benchmarks.peer_scenes import scene_path
 from benchmarks.peers import Point, reached
 from course import load_scene
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 HERE = {"processor": "An Example 3000", "peer": "Mitsuba 3"}
 THERE = {"processor": "Another 4000", "peer": "Mitsuba 3"}

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from benchmarks.figures import Figure, write_ratios
 from benchmarks.report import keep, publish
+from course.base.errors import OutputError
 from course.benchmarking.measuring import FULL, QUICK, Effort
 from course.benchmarking.plot_data import (
     STYLES,
@@ -23,8 +24,7 @@ from course.benchmarking.plot_data import (
     rounded,
     write_records,
 )
-from course.effects import PROJECT
-from course.errors import OutputError
+from course.engine.functions.effects import PROJECT
 from tests.benchmarking.curves import curve, measured
 
 MACHINE = {"processor": "An Example 3000", "threads": "2 of 4 logical cores"}

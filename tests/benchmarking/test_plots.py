@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from course.base.errors import CourseError
 from course.benchmarking.estimators import BENCHED, Module
 from course.benchmarking.labels import spread
 from course.benchmarking.measuring import Measured
 from course.benchmarking.plot_data import comparisons
 from course.benchmarking.plots import STYLE, check_matplotlib, draw, write_comparisons
-from course.errors import CourseError
 from tests.benchmarking.curves import curve, measured
 
 ABOUT = "RMSE against the converged picture; 1234 x 1234 pixels, mean of 3 seeds"

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from course import Picture, load_scene, render
+from course.base.errors import CourseError, OutputError, SceneError
 from course.benchmarking import references
 from course.benchmarking.references import HALVES, reference
-from course.errors import CourseError, OutputError, SceneError
-from course.formats.pictures.files import save
+from course.engine.formats.pictures.files import save
 from tests.benchmarking.conftest import SCENE
 
 

@@ -10,14 +10,14 @@ from PIL import Image
 from benchmarks import path_tracing, radiosity
 from benchmarks.report import CAPTION, GAP, Cell, draw_sheet
 from course import load_scene, render
-from course.core.types import Floats32
-from course.formats.pictures.display import linear_to_srgb8
-from course.radiosity.patches import Patches, make_patches
-from course.radiosity.radiosity import solve
-from course.radiosity.solving import Shooting, with_ambient
-from course.radiosity.viewing import Solution, look, own_view
-from course.scene.scene import Scene, load_variant
-from tests.radiosity.rooms import FUNCTIONS, hollow_sphere
+from course.engine.core.types import Floats32
+from course.engine.formats.pictures.display import linear_to_srgb8
+from course.engine.radiosity.patches import Patches, make_patches
+from course.engine.radiosity.radiosity import solve
+from course.engine.radiosity.solving import Shooting, with_ambient
+from course.engine.radiosity.viewing import Solution, look, own_view
+from course.engine.scene.scene import Scene, load_variant
+from tests.engine.radiosity.rooms import FUNCTIONS, hollow_sphere
 
 SIDE = 24
 FEW = 60

@@ -24,8 +24,8 @@ def engine(monkeypatch: pytest.MonkeyPatch) -> Engine:
     stand_in = Engine()
     monkeypatch.setitem(vars(course), "load_scene", stand_in.load_scene)
     monkeypatch.setitem(vars(course), "render", stand_in.render)
-    monkeypatch.setattr("course.rendering.summary.summarize", lambda scene: scene.summary())
-    monkeypatch.setattr("course.scene.darkness.why_dark", lambda scene, *_: scene.why_dark)
+    monkeypatch.setattr("course.engine.render.summary.summarize", lambda scene: scene.summary())
+    monkeypatch.setattr("course.engine.scene.darkness.why_dark", lambda scene, *_: scene.why_dark)
     monkeypatch.setattr("course.cli.render.check_spared", lambda *_: None)
     return stand_in
 

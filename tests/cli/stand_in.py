@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from course.formats.pictures.display import Display
-from course.formats.pictures.files import save
+from course.engine.formats.pictures.display import Display
+from course.engine.formats.pictures.files import save
 
 RECEIPT: dict[str, Any] = {
     "rays": {"camera": 4915200, "shadow": 4800000, "reflection": 0, "refraction": 12},

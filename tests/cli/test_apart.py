@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from course.base.processes import READ_THERE
 from course.cli.main import COMMANDS
-from course.processes import READ_THERE
 from tests.cli.signalled import interrupted
 from tests.processes import ROOT
 

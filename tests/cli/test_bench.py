@@ -13,7 +13,7 @@ from course.benchmarking import measuring
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED, Estimator, Module
 from course.benchmarking.measuring import FULL, QUICK, Effort, Measured
 from course.cli.bench import ELSEWHERE, EXACT
-from course.modules import COURSE, MODULES
+from course.engine.functions.modules import COURSE, MODULES
 from tests.benchmarking.curves import curve
 from tests.cli.conftest import Run
 

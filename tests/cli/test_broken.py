@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 from course.cli.options import FAILED
-from course.effects import PROJECT
-from course.grading import grading
-from course.grading.checks.check import Check, ModuleChecks, Trial
-from course.grading.classes.engines import Outcome
+from course.engine.functions.effects import PROJECT
+from course.school.grading import grading
+from course.school.grading.checks.check import Check, ModuleChecks, Trial
+from course.school.grading.classes.engines import Outcome
 from tests.cli.conftest import Run
 
 MODULE = "motion_blur"

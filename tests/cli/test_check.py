@@ -9,9 +9,9 @@ from click.testing import CliRunner, Result
 
 from course.cli.main import commands
 from course.cli.options import FAILED
-from course.effects import PROJECT
-from course.grading.known import known as known_submissions
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
+from course.school.grading.known import known as known_submissions
 from tests.cli.conftest import Run
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.formats.pictures.files import save
+from course.engine.formats.pictures.files import save
 from tests.cli.conftest import Run
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from course.base.errors import OutputError
 from course.cli.outputs import check_outputs
-from course.errors import OutputError
 from tests.cli.conftest import Run, files
 from tests.cli.stand_in import Engine
 
@@ -37,12 +37,12 @@ def test_no_command_makes_the_folder_of_a_file(
         pytest.fail("the work has begun")
 
     monkeypatch.setattr("course.load_scene", work)
-    monkeypatch.setattr("course.formats.metu.converting.convert", work)
+    monkeypatch.setattr("course.engine.formats.metu.converting.convert", work)
     monkeypatch.setattr("course.benchmarking.measuring.measure", work)
-    monkeypatch.setattr("course.grading.calibration.calibrate", work)
-    monkeypatch.setattr("course.grading.references.make_references", work)
-    monkeypatch.setattr("course.grading.release.archive.write_archive", work)
-    monkeypatch.setattr("course.grading.classes.bundles.gradescope_contents", work)
+    monkeypatch.setattr("course.school.grading.calibration.calibrate", work)
+    monkeypatch.setattr("course.school.grading.references.make_references", work)
+    monkeypatch.setattr("course.school.grading.release.archive.write_archive", work)
+    monkeypatch.setattr("course.school.grading.classes.bundles.gradescope_contents", work)
     result = run(*command.split())
     assert result.exit_code == 1
     assert NOWHERE in result.stderr

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from course.base.processes import environment_apart
 from course.cli.main import COMMANDS
-from course.effects import PROJECT
-from course.formats.pictures.reading import read_picture
-from course.processes import environment_apart
+from course.engine.formats.pictures.reading import read_picture
+from course.engine.functions.effects import PROJECT
 from tests.cli.conftest import Run
 from tests.cli.signalled import interrupted, started
 from tests.cli.stand_in import RECEIPT
@@ -210,9 +210,9 @@ def test_a_large_render_reads_its_loops_while_the_scene_is_built(
     program = (
         "import sys\n"
         "from threading import current_thread, main_thread\n"
-        "from course.rendering import which_loops\n"
+        "from course.engine.render import which_loops\n"
         "from course.cli.main import commands\n"
-        "from course.rendering import reading_ahead\n"
+        "from course.engine.render import reading_ahead\n"
         "read = []\n"
         "def noting(work=reading_ahead._read_loops):\n"
         "    read.append(current_thread() is main_thread())\n"
@@ -245,7 +245,7 @@ def test_a_numba_that_refuses_this_numpy_is_done_without(tmp_path: Path, scene: 
     (refusing / "__init__.py").write_text("raise ImportError('Numba needs an older NumPy')\n")
     program = (
         "import sys\n"
-        "from course.rendering import which_loops\n"
+        "from course.engine.render import which_loops\n"
         "from course.cli.main import commands\n"
         "which_loops.WORTH_COMPILED = which_loops.WORTH_READING = 1\n"
         "commands(sys.argv[1:], standalone_mode=False)\n"

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.formats.pictures.reading import read_picture
+from course.engine.formats.pictures.reading import read_picture
 from tests.cli.conftest import Run
-from tests.radiosity.rooms import plates
+from tests.engine.radiosity.rooms import plates
 
 
 @pytest.fixture

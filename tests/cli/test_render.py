@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.errors import SceneError
+from course.base.errors import SceneError
 from tests.cli.conftest import Run, files
 from tests.cli.stand_in import RECEIPT, Engine, Picture
 

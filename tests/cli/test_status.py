@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from course.cli.main import commands
-from course.effects import PROJECT
-from course.grading import progress as told
-from course.grading.progress import KEPT, Progress, next_one
+from course.engine.functions.effects import PROJECT
+from course.school.grading import progress as told
+from course.school.grading.progress import KEPT, Progress, next_one
 
 CliRunner = pytest.importorskip("click.testing").CliRunner
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from course.cli import viva
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from tests.cli.conftest import Run
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from course.cli.render import _named
 from course.cli.watching import times
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 
 def later(path: Path, text: str) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from tests.once import Once
 
 # For what builds the site, which Sphinx finds in the same way.

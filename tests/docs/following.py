@@ -27,7 +27,7 @@ import yaml
 from click.testing import CliRunner
 
 from course.cli.main import COMMANDS, commands
-from course.modules import COURSE
+from course.engine.functions.modules import COURSE
 from tests.docs.blocks import Block, blocks
 
 NOT_RUN = {
@@ -46,7 +46,7 @@ TOOLS = {"ruff", "mypy", "sphinx", "http.server", "pip", "pytest", "uv"}
 TINY = ["--size", "48x32"]
 FEW = ["--modules", "adaptive_sampling"]
 REFERENCES = ("adaptive_sampling", "motion_blur")
-"""Modules whose references are made; tests/grading/release makes them all."""
+"""Modules whose references are made; tests/school/grading/release makes them all."""
 
 SHORTER: dict[str, list[str]] = {
     "render": [*TINY, "--spp", "4"],
@@ -475,16 +475,16 @@ def _small(words: Sequence[str] = ()) -> Iterator[None]:
 def _few_references(command: str) -> Iterator[None]:
     """Those of some modules alone: of all they take a quarter of a minute, and what pages hand in needs no others."""
     places = {
-        "bundle": "course.grading.release.archive",
-        "grade": "course.grading.classes.grading",
-        "references": "course.grading.references",
-        "regrade": "course.grading.classes.grading",
-        "release": "course.grading.release.archive",
+        "bundle": "course.school.grading.release.archive",
+        "grade": "course.school.grading.classes.grading",
+        "references": "course.school.grading.references",
+        "regrade": "course.school.grading.classes.grading",
+        "release": "course.school.grading.release.archive",
     }
     if command not in places:
         yield
         return
-    from course.grading.references import make_references
+    from course.school.grading.references import make_references
 
     def few(modules: Sequence[str], *rest: Any) -> int:
         return make_references([name for name in modules if name in REFERENCES], *rest)
@@ -533,7 +533,7 @@ def extras() -> dict[str, Any]:
 
 def _keys() -> set[str]:
     """The keys that a scene file has at the top."""
-    from course.formats.yaml.schema import json_schema
+    from course.engine.formats.yaml.schema import json_schema
 
     schema = json_schema()
     name = schema["$ref"].rpartition("/")[2]

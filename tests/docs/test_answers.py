@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import PROJECT
-from course.grading.release.archive import PAGES, SCENES, project_files, solution_lines
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
+from course.school.grading.release.archive import PAGES, SCENES, project_files, solution_lines
 
 ANSWERS = PROJECT / "solutions" / "answers"
 EXAMS = PROJECT / "solutions" / "exams"

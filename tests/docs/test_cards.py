@@ -7,8 +7,8 @@ import pytest
 from click.testing import CliRunner
 
 from course.cli.main import commands
-from course.grading import progress
-from course.modules import COURSE, TAUGHT
+from course.engine.functions.modules import COURSE, TAUGHT
+from course.school.grading import progress
 
 
 def test_each_module_has_a_card_in_the_order_of_the_course(site: Path) -> None:

@@ -8,9 +8,9 @@ import pytest
 import yaml
 
 from course import __version__
-from course.effects import PROJECT
-from course.grading.known import known
-from course.modules import COURSE, FURTHER, MODULES
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE, FURTHER, MODULES
+from course.school.grading.known import known
 
 CITATION = yaml.safe_load((PROJECT / "CITATION.cff").read_text(encoding="utf-8"))
 PROJECT_TABLE: dict[str, Any] = tomllib.loads(

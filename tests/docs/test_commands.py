@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from tests.docs.blocks import Block, blocks
 from tests.docs.following import ONCE
 from tests.processes import python

@@ -13,14 +13,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
+from course.base.errors import CourseError
 from course.benchmarking import labels
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, Record, Series, write_records
 from course.benchmarking.tables import digits
 from course.cli.bench import EXACT
-from course.effects import PROJECT
-from course.errors import CourseError
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')

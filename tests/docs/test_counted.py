@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import PROJECT
-from course.grading.known import known
-from course.modules import COURSE, FURTHER, MODULES
-from course.signatures import CONTRACTS
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE, FURTHER, MODULES
+from course.engine.functions.signatures import CONTRACTS
+from course.school.grading.known import known
 from tests.test_layers import LAYERS
 
 DOCS = PROJECT / "docs"

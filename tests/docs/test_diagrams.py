@@ -9,8 +9,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from course.effects import PROJECT
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
@@ -20,6 +20,7 @@ from sitebuild.diagrams import (
     blurred_transparency,
     bounding_volumes,
     cube_map,
+    house,
     penumbra,
     radiosity,
     streak,
@@ -29,7 +30,7 @@ from sitebuild.diagrams.figure import html, symbols
 from sitebuild.diagrams.part import diagram, figure
 from sitebuild.diagrams.view import View
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 
 STYLES = (PROJECT / "docs" / "_static" / "diagrams.css").read_text(encoding="utf-8")
 
@@ -340,3 +341,20 @@ def test_a_figure_without_words_has_no_empty_paragraph() -> None:
     text = html(figure("soft_shadows/penumbra"), "name")
     assert "<p>" not in text
     assert 'aria-labelledby="name-1-title name-1-description"' in text
+
+
+def test_the_picture_of_the_house_has_every_room_and_its_arrows_lead_down() -> None:
+    (svg,) = drawings("house/rooms")
+    words = {"".join(each.itertext()) for each in svg.iter() if each.tag.endswith("text")}
+    folders = [path.parent for path in (PROJECT / "course").rglob("__init__.py")]
+    inner = {f"{path.name}/" for path in folders if path.parent.name in {"course", "engine"}}
+    assert inner - words == set()
+    arrows = [each for each in svg.iter() if each.tag.endswith("line")]
+    assert len(arrows) > 10
+    assert all(float(each.get("y2", 0)) > float(each.get("y1", 0)) for each in arrows)
+
+
+def test_a_circle_has_no_floor() -> None:
+    assert house.floors({"a": set(), "b": {"a"}, "c": {"a", "b"}}) == [["a"], ["b"], ["c"]]
+    with pytest.raises(ValueError, match="in a circle: .*'b'"):
+        house.floors({"a": set(), "b": {"c"}, "c": {"b"}})

@@ -10,8 +10,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from course.effects import PROJECT
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
 from tests.browser import tab_to, untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')

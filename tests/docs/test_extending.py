@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from tests.processes import python
 
 PAGE = PROJECT / "docs" / "guides" / "extend.md"

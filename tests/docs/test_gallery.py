@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

@@ -10,8 +10,8 @@ pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
 from sitebuild.glossary import FILE, SOUGHT, directives, entries, indexed, slug
 
-from course.effects import PROJECT
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
 
 TEXT = FILE.read_text(encoding="utf-8")
 ENTRIES = entries(TEXT)

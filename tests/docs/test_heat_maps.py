@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 from course.cli.main import commands
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

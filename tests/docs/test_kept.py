@@ -17,7 +17,7 @@ from sitebuild import kept, notebook, parts
 from sitebuild.place import Place
 from sphinx.project import Project
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 
 @pytest.fixture

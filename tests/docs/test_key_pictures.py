@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.formats.yaml.schema import json_schema
+from course.engine.formats.yaml.schema import json_schema
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from tests.browser import untroubled
 
 PAGES = {

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from course import load_scene, render
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 PAGE = PROJECT / "docs" / "modules" / "path_tracing.md"
 SCENE = PROJECT / "scenes" / "mesh_light.yaml"

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.effects import PROJECT
-from course.errors import CourseError
-from course.modules import COURSE
+from course.base.errors import CourseError
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

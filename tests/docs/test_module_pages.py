@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import PROJECT
-from course.grading.release.archive import solution_lines
-from course.modules import COURSE
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
+from course.school.grading.release.archive import solution_lines
 
 PAGES = PROJECT / "docs" / "modules"
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 pytest.importorskip("nbformat", reason='notebooks need: pip install -e ".[notebook]"')
 pytest.importorskip("nbclient", reason='notebooks are run by: pip install -e ".[notebook]"')

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from course import __version__
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 
 pytest.importorskip("furo", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("myst_parser", reason='the site needs: pip install -e ".[docs]"')

@@ -19,13 +19,13 @@ from benchmarks.path_tracing import SCENE as CORNELL_BOX
 from course import load_scene, render
 from course.benchmarking.estimators import FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, read_records
-from course.compiled.library import available
-from course.effects import PROJECT
-from course.modules import COURSE
-from course.radiosity.radiosity import PATCHES
-from course.radiosity.solving import GATHERED, KEPT_BYTES
-from course.rendering.box_tests import box_tests as boxes_met
-from course.scene.scene import load_variant
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
+from course.engine.loops.library import available
+from course.engine.radiosity.radiosity import PATCHES
+from course.engine.radiosity.solving import GATHERED, KEPT_BYTES
+from course.engine.render.box_tests import box_tests as boxes_met
+from course.engine.scene.scene import load_variant
 
 DOCS = PROJECT / "docs"
 DATA = DOCS / "data"

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.types import Floats32
-from course.effects import PROJECT, Effects
-from course.errors import CourseError
-from course.extras.samplers.sobol import owen_scrambled, sobol_words
+from course.base.errors import CourseError
+from course.engine.core.types import Floats32
+from course.engine.functions.effects import PROJECT, Effects
+from course.engine.terms.samplers.sobol import owen_scrambled, sobol_words
 from tests.browser import untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')

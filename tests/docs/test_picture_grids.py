@@ -14,8 +14,8 @@ from click.testing import CliRunner
 from PIL import Image
 
 from course.cli.main import commands
-from course.effects import PROJECT
-from course.radiosity import radiosity
+from course.engine.functions.effects import PROJECT
+from course.engine.radiosity import radiosity
 from tests.browser import untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.effects import PROJECT
-from course.errors import CourseError
-from course.modules import COURSE
-from course.quizzes.declared import RIGHT, Asked, asked
+from course.base.errors import CourseError
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
+from course.school.quizzes.declared import RIGHT, Asked, asked
 from tests.browser import tab_to, untroubled
-from tests.stress.examples import LONG
+from tests.engine.stress.examples import LONG
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

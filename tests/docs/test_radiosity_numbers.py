@@ -5,11 +5,11 @@ import pytest
 from benchmarks import path_tracing, radiosity
 from benchmarks.mitsuba_agreement import BLOCK
 from course import load_scene
-from course.effects import PROJECT
-from course.radiosity.patches import Functions, make_patches
-from course.radiosity.radiosity import PATCHES, TOLERANCE, solve
-from course.radiosity.solving import GATHERED, gathered
-from course.scene.scene import Scene
+from course.engine.functions.effects import PROJECT
+from course.engine.radiosity.patches import Functions, make_patches
+from course.engine.radiosity.radiosity import PATCHES, TOLERANCE, solve
+from course.engine.radiosity.solving import GATHERED, gathered
+from course.engine.scene.scene import Scene
 from tests.docs.test_page_numbers import figures, said, table, told, value
 
 BESIDE = "radiosity, beside path tracing: "
@@ -133,7 +133,7 @@ def test_the_tolerances_that_are_named_are_the_tests_own() -> None:
     assert "pytest.approx(2 / (1 - reflectance), rel=1e-3)" in solving
     viewing = (tests / "radiosity" / "test_viewing.py").read_text(encoding="utf-8")
     mean, rms, patches = accuracy(
-        r"`tests/radiosity/test_viewing\.py` allows N% and N% for N patches"
+        r"`tests/engine/radiosity/test_viewing\.py` allows N% and N% for N patches"
     )
     assert f"patches={int(value(patches))}," in viewing
     assert f"rel={value(mean) / 100:g})" in viewing

@@ -6,8 +6,8 @@ import numpy as np
 from PIL import Image
 
 from course import load_scene, render
-from course.effects import PROJECT
-from course.formats.pictures.display import linear_to_srgb8
+from course.engine.formats.pictures.display import linear_to_srgb8
+from course.engine.functions.effects import PROJECT
 
 SIZE = 60, 38
 

@@ -12,10 +12,10 @@ import yaml
 from click.testing import CliRunner
 from PIL import Image
 
+from course.base.errors import CourseError
 from course.cli.main import commands
-from course.effects import PROJECT
-from course.errors import CourseError
-from course.formats.yaml.loading import load_description
+from course.engine.formats.yaml.loading import load_description
+from course.engine.functions.effects import PROJECT
 from tests.browser import tab_to, untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')

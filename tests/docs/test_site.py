@@ -11,9 +11,9 @@ from urllib.parse import unquote, urlsplit
 import pytest
 
 from course.cli.main import COMMANDS
-from course.effects import PROJECT
-from course.formats.yaml.schema import json_schema
-from course.modules import COURSE
+from course.engine.formats.yaml.schema import json_schema
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
 
 HEAVIEST = 1_500_000
 """Bytes of a page, with its styles, scripts and what isn't loaded only when it is scrolled to."""

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from course.modules import COURSE
+from course.engine.functions.modules import COURSE
 from tests.browser import untroubled
 
 DECK = ".deck .slide.now"

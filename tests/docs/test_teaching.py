@@ -13,9 +13,9 @@ from sitebuild.place import Place
 from sitebuild.plans import plan
 from sitebuild.teaching_file import WORDS_PER_MINUTE, minutes, reading_minutes, teaching
 
-from course.effects import PROJECT
-from course.grading.catalog import module_checks
-from course.modules import COURSE, MODULES
+from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE, MODULES
+from course.school.grading.catalog import module_checks
 from tests.docs.test_sitebuild import _app
 
 DECLARED = teaching().modules

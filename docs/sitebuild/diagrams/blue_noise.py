@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from course.extras.samplers.sobol import owen_scrambled, sobol_words
+from course.engine.terms.samplers.sobol import owen_scrambled, sobol_words
 from sitebuild.diagrams.canvas import Canvas
 from sitebuild.diagrams.figure import Figure, Panel
 from solutions import blue_noise

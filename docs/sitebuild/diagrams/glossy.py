@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from course.core.vectors import reflect
+from course.engine.core.vectors import reflect
 from sitebuild.diagrams.canvas import Canvas, columns, turned
 from sitebuild.diagrams.figure import Figure, Panel
 from sitebuild.diagrams.lobe import lobe

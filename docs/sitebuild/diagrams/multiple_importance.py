@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from sitebuild.diagrams.canvas import Canvas
 from sitebuild.diagrams.figure import Figure, Panel
 from solutions import multiple_importance

@@ -3,7 +3,7 @@
 from functools import cache
 from importlib import import_module
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 from sitebuild.diagrams.figure import Figure, html
 from sitebuild.place import Place
 

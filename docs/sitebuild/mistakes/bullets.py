@@ -3,8 +3,8 @@
 import re
 from dataclasses import dataclass
 
-from course.effects import PROJECT
-from course.errors import CourseError
+from course.base.errors import CourseError
+from course.engine.functions.effects import PROJECT
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from functools import lru_cache
 from importlib import import_module
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 from sitebuild.mistakes.look import Look
 
 

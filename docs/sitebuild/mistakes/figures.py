@@ -17,10 +17,10 @@ import click
 import numpy as np
 from PIL import Image, ImageDraw
 
-from course.atomic import replacing
+from course.base.atomic import replacing
+from course.base.errors import CourseError
 from course.benchmarking.references import engine_hash
-from course.effects import PACKAGE, PROJECT
-from course.errors import CourseError
+from course.engine.functions.effects import PACKAGE, PROJECT
 from sitebuild import webp
 from sitebuild.mistakes.catalog import look
 from sitebuild.mistakes.look import SIZE
@@ -29,7 +29,7 @@ from sitebuild.mistakes.submissions import functions, solution, submission
 
 KEPT = PROJECT / "out" / "docs" / "mistakes"
 HERE = Path(__file__).parent
-GRADING = PACKAGE / "grading"
+GRADING = PACKAGE / "school" / "grading"
 
 PATIENCE = 120.0
 """Seconds after which a function is taken never to end."""

@@ -2,7 +2,7 @@
 
 from html import escape
 
-from course.errors import CourseError
+from course.base.errors import CourseError
 from sitebuild.mistakes.bullets import Bullet, bullets, plain
 from sitebuild.mistakes.catalog import look, look_at
 from sitebuild.mistakes.figures import STUDIO, Figure, blank

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from course.grading.checks.check import Figure
-from course.grading.pictures.rendered import MakeScene, loaded, rendered
-from course.grading.reports.drawing import draw_pictures
+from course.school.grading.checks.check import Figure
+from course.school.grading.pictures.rendered import MakeScene, loaded, rendered
+from course.school.grading.reports.drawing import draw_pictures
 from sitebuild.mistakes.look import SIZE, Draw
 from sitebuild.mistakes.numbers import scene_numbers, trial
 from sitebuild.mistakes.submissions import functions
@@ -32,7 +32,7 @@ def checked(path: str, make: MakeScene) -> Draw:
     Parameters
     ----------
     path : MODULE.FUNCTION
-    make : the scene, as in `course.grading.pictures.scenes`
+    make : the scene, as in `course.school.grading.pictures.scenes`
     """
     return partial(_rendered, path, make)
 

@@ -5,9 +5,9 @@ from functools import lru_cache
 from types import ModuleType
 from typing import Any
 
-from course.effects import PROJECT
-from course.errors import CourseError
-from course.grading.known import Known, known
+from course.base.errors import CourseError
+from course.engine.functions.effects import PROJECT
+from course.school.grading.known import Known, known
 
 Function = Callable[..., Any]
 

@@ -10,10 +10,10 @@ from random import Random
 
 from PIL import Image
 
-from course.errors import CourseError
-from course.grading.checks.declare import declared_function
-from course.quizzes.declared import RIGHT, Asked
-from course.quizzes.question import LETTERS, Choice, Question, Shown
+from course.base.errors import CourseError
+from course.school.grading.checks.declare import declared_function
+from course.school.quizzes.declared import RIGHT, Asked
+from course.school.quizzes.question import LETTERS, Choice, Question, Shown
 from sitebuild.mistakes.catalog import look, look_at
 from sitebuild.mistakes.figures import STUDIO, Figure
 from sitebuild.quiz.apart import Difference, Trials, described, difference

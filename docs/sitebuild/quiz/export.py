@@ -6,9 +6,9 @@ from io import BytesIO, StringIO
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from course.errors import CourseError
-from course.quizzes.declared import asked
-from course.quizzes.packing import canvas, moodle, prairielearn, qti21, readme
+from course.base.errors import CourseError
+from course.school.quizzes.declared import asked
+from course.school.quizzes.packing import canvas, moodle, prairielearn, qti21, readme
 from sitebuild.quiz.asking import check, drawn, planned, question
 
 

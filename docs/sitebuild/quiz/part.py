@@ -6,9 +6,9 @@ from pathlib import Path
 
 from PIL import Image
 
-from course.quizzes.declared import asked
-from course.quizzes.packing import marked
-from course.quizzes.question import LETTERS, Question
+from course.school.quizzes.declared import asked
+from course.school.quizzes.packing import marked
+from course.school.quizzes.question import LETTERS, Question
 from sitebuild.mistakes.catalog import look
 from sitebuild.mistakes.figures import STUDIO, Figure, blank
 from sitebuild.mistakes.look import SIZE

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from sitebuild.mistakes.look import SIZE, Draw, Look
 from sitebuild.mistakes.rendered import shown
 

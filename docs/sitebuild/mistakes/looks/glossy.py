@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from course.grading.pictures import scenes
+from course.school.grading.pictures import scenes
 from sitebuild.mistakes.look import Look
 from sitebuild.mistakes.plots import (
     INK,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from course.grading.pictures import scenes
+from course.school.grading.pictures import scenes
 from sitebuild.mistakes.look import Look
 from sitebuild.mistakes.plots import curves, label, plot
 from sitebuild.mistakes.rendered import box, checked, floor, scene

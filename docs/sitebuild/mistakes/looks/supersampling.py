@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image
 
-from course.grading.pictures import scenes
+from course.school.grading.pictures import scenes
 from sitebuild.mistakes.look import SIZE, Draw, Look
 from sitebuild.mistakes.plots import INK, SECOND, Array, curves, dots, label, plot, square, view
 from sitebuild.mistakes.rendered import checked, shown

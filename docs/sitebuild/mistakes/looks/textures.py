@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PIL import Image
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from sitebuild.mistakes.look import SIZE, Look
 from sitebuild.mistakes.plots import curves, label, plot
 from sitebuild.mistakes.rendered import shown

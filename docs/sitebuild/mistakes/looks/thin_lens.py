@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from course.effects import PROJECT
+from course.engine.functions.effects import PROJECT
 from sitebuild.mistakes.look import Look
 from sitebuild.mistakes.plots import INK, RIGHT, circle, curves, dots, label, plot, view
 from sitebuild.mistakes.rendered import ball, box, floor, glow, scene

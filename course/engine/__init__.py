@@ -1,0 +1,1 @@
+"""The renderer: from a scene file to a picture."""

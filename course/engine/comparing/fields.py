@@ -1,0 +1,97 @@
+"""Fields in which noise leaves no trace but a difference of two pictures does: brightness, movement, sharpness.
+
+A picture that is moved differs by its gradient, a blurred one by its Laplacian, and one that is brighter by itself. So
+the difference of two pictures is multiplied by what their mean looks like, and divided by the noise around; sums of
+that are 0 but for noise, if the pictures are the same. What a pixel's mean looks like is taken from its neighbours
+alone: with its own value, noise would be multiplied by itself.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.engine.comparing.noise import Noise, Part
+from course.engine.comparing.windows import Field
+from course.engine.core.types import Floats64
+
+COLOURS = ("red", "green", "blue")
+KINDS = (*COLOURS, "moved across", "moved down", "blurred", "alike across", "alike down")
+"""The last two are made of the first (`course.engine.comparing.windows.alike`)."""
+
+SURE = 1.0
+"""What a slope's square must exceed its variance by: slopes of noise are none of the picture."""
+
+SHARED = 4.0
+"""Inflation from which on neighbours share so much noise that it has slopes of its own, and sharpness isn't tested."""
+
+SLOPE_VARIANCE = 0.125
+"""Of a slope of the pictures' mean, in parts of the difference's variance; by the weights below."""
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Of the mean of two pictures, (H, W, 3) each: to the right, down, and the Laplacian; 0 where noise hides it."""
+
+    across: Floats64
+    down: Floats64
+    laplacian: Floats64
+
+
+def slopes_of(mean: Floats64, noise: Noise) -> Slopes:
+    """By the pixels around each, and not by itself."""
+    padded = np.pad(mean, ((2, 2), (2, 2), (0, 0)), mode="edge")
+
+    def at(down: int, across: int) -> Floats64:
+        height, width = mean.shape[:2]
+        values: Floats64 = padded[2 + down :, 2 + across :][:height, :width]
+        return values
+
+    near = at(0, 1) + at(0, -1) + at(1, 0) + at(-1, 0)
+    far = at(0, 2) + at(0, -2) + at(2, 0) + at(-2, 0)
+    variance = SURE * SLOPE_VARIANCE * noise.size**2
+
+    def sure(slope: Floats64) -> Floats64:
+        kept = np.maximum(slope**2 - variance, 0) / np.maximum(np.abs(slope), 1e-150)
+        return np.copysign(kept, slope)
+
+    return Slopes(
+        across=sure((at(0, 1) - at(0, -1)) / 2),
+        down=sure((at(1, 0) - at(-1, 0)) / 2),
+        laplacian=sure((far - near) / 4),
+    )
+
+
+def fields_of(part: Part, noise: Noise, rounding: Floats64, inflation: float) -> list[Field]:
+    """Those of ``KINDS`` but the last two.
+
+    ``rounding``: by what differences may be off (H, W, 3); ``inflation``: as `course.engine.comparing.noise.Level`
+    has it.
+    """
+    counted = part.usable[..., None] * ((np.abs(part.d) > rounding) | (rounding == 0))
+    slopes = slopes_of((part.a + part.b) / 2, noise)
+    squares = noise.size**2
+    if inflation > SHARED:
+        slopes.laplacian[:] = 0
+    weights = [
+        slope / squares * counted for slope in (slopes.across, slopes.down, slopes.laplacian)
+    ]
+    even = counted / noise.size
+    return [
+        *(
+            _field(part.d, even, noise, rounding, slice(channel, channel + 1))
+            for channel in range(3)
+        ),
+        *(_field(part.d, weight, noise, rounding, slice(3)) for weight in weights),
+    ]
+
+
+def _field(
+    d: Floats64, weight: Floats64, noise: Noise, rounding: Floats64, channels: slice
+) -> Field:
+    weight = weight[..., channels]
+    size = np.abs(weight)
+    return Field(
+        values=(weight * d[..., channels]).sum(axis=2),
+        squares=(size * np.sqrt(noise.known[..., channels])).sum(axis=2) ** 2,
+        off=(size * rounding[..., channels]).sum(axis=2),
+    )

@@ -1,0 +1,164 @@
+"""Vertex normals for meshes that come without: means of face normals, weighted by the angle or by the area.
+
+Triangles that share a vertex are smooth there. Where faces weigh by their angles, vertices that only lie at the same
+place (the three corners of each triangle in an STL file, the two sides of a texture seam) lend each other their
+normals too where these are within the crease angle, and stay a hard edge where they aren't.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.engine.formats.meshes.parts import same
+
+CREASE_DEGREES = 40.0
+"""Vertices at one place whose own normals differ by more keep them apart."""
+
+# Work at a place grows with the square of the vertices there. The tip of a fan finer than this is
+# left as it is: facets so narrow need no smoothing.
+MOST_COPIES = 64
+
+
+def smooth_normals(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> NDArray[np.float64]:
+    """Return unit normals (V, 3), finite for every finite mesh.
+
+    A face counts by its angle at the vertex (Thuermer & Wuethrich, "Computing vertex normals from
+    polygonal facets", 1998), so that the result doesn't depend on how a flat face is cut up.
+    Where no face has an area the normal is +y; where the faces cancel out, that of one of them.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+    triangles : (T, 3) integer, indices in range
+    """
+    faces, weights = _faces_and_angles(vertices, triangles)
+    sums = _sums(len(vertices), triangles, faces, weights)
+    own = unit(sums)
+    normals = unit(_lend(vertices, own, sums, math.cos(math.radians(CREASE_DEGREES))))
+    return _filled(normals, own, faces, triangles)
+
+
+def angle_normals(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> NDArray[np.float64]:
+    """As `smooth_normals`, but vertices at one place lend each other nothing."""
+    faces, weights = _faces_and_angles(vertices, triangles)
+    normals = unit(_sums(len(vertices), triangles, faces, weights))
+    return _filled(normals, normals, faces, triangles)
+
+
+def area_normals(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> NDArray[np.float64]:
+    """Return unit normals (V, 3), finite for every finite mesh: sums of cross(p1 - p0, p2 - p0), made unit.
+
+    A face counts by its area, and only where it has the vertex itself: vertices at one place lend each other nothing.
+    Where no face has an area the normal is +y; where the faces cancel out, that of one of them.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+    triangles : (T, 3) integer, indices in range
+    """
+    p = vertices[triangles]
+    # In units of the longest edge, so that no product leaves float64's range.
+    longest = np.abs(p[:, 1:] - p[:, :1]).max(initial=0.0) or 1.0
+    e1, e2 = (np.asarray((p[:, k] - p[:, 0]) / longest) for k in (1, 2))
+    crossed = np.cross(e1, e2)
+    normals = unit(_sums(len(vertices), triangles, crossed, np.ones(triangles.shape)))
+    return _filled(normals, normals, unit(crossed), triangles)
+
+
+def edges_and_faces(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return edges (T, 3, 3), cross products of the first two (T, 3), and the lengths (T,) that both are in units of.
+
+    Each triangle's own unit is the largest coordinate of its edges, so that no product leaves float64's range.
+    """
+    p = vertices[triangles]
+    edges = np.roll(p, -1, axis=1) - p
+    longest = np.max(np.abs(edges), axis=(1, 2), keepdims=True, initial=0.0)
+    unit_length = np.where(longest > 0.0, longest, 1.0)
+    edges /= unit_length
+    return edges, np.cross(edges[:, 0], edges[:, 1]), unit_length[:, 0, 0]
+
+
+def _faces_and_angles(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return face normals (T, 3), zero where there is no area, and corner angles (T, 3)."""
+    edges, faces, _ = edges_and_faces(vertices, triangles)
+    areas = np.sqrt(np.sum(faces * faces, axis=1))
+    # At corner k the edges k and (minus) k - 1 meet; all three pairs span twice the same area.
+    cosines = -np.sum(edges * np.roll(edges, 1, axis=1), axis=2)
+    return unit(faces), np.arctan2(areas[:, None], cosines)
+
+
+def _sums(
+    count: int,
+    triangles: NDArray[np.integer],
+    faces: NDArray[np.float64],
+    weights: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return for each of the vertices (count, 3) the sum of its faces (T, 3) by the weights of its corners (T, 3)."""
+    sums = np.zeros((count, 3))
+    for axis in range(3):
+        for corner in range(3):
+            sums[:, axis] += np.bincount(
+                triangles[:, corner], weights=weights[:, corner] * faces[:, axis], minlength=count
+            )
+    return sums
+
+
+def _lend(
+    vertices: NDArray[np.float64],
+    own: NDArray[np.float64],
+    sums: NDArray[np.float64],
+    least_cosine: float,
+) -> NDArray[np.float64]:
+    """Return the sums of all copies of a vertex that face nearly the same way."""
+    _, place = same(*vertices.T)
+    order = np.argsort(place, kind="stable")
+    copies = np.bincount(place)
+    start = np.cumsum(copies) - copies
+    borrowers = np.flatnonzero((copies[place] > 1) & (copies[place] <= MOST_COPIES))
+    total = sums.copy()
+    total[borrowers] = 0.0
+    k = 0
+    # Copies add up in the same order for each of them: equal sets get equal bits.
+    while borrowers.size:
+        lender = order[start[place[borrowers]] + k]
+        near = np.sum(own[borrowers] * own[lender], axis=1) >= least_cosine
+        near |= borrowers == lender
+        total[borrowers[near]] += sums[lender[near]]
+        k += 1
+        borrowers = borrowers[copies[place[borrowers]] > k]
+    return total
+
+
+def _filled(
+    normals: NDArray[np.float64],
+    own: NDArray[np.float64],
+    faces: NDArray[np.float64],
+    triangles: NDArray[np.integer],
+) -> NDArray[np.float64]:
+    """Return `normals` with something of unit length where they are zero."""
+    any_face = np.zeros_like(normals)
+    solid = np.any(faces, axis=1)
+    for corner in range(3):
+        any_face[triangles[solid, corner]] = faces[solid]
+    for choice in (own, any_face, np.array([0.0, 1.0, 0.0])):
+        normals = np.where(np.any(normals, axis=1, keepdims=True), normals, choice)
+    return normals
+
+
+def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return vectors (N, 3) at unit length; zero stays zero. No square leaves float64's range."""
+    largest = np.max(np.abs(vectors), axis=1, keepdims=True)
+    scaled = vectors / np.where(largest > 0.0, largest, 1.0)
+    lengths = np.sqrt(np.sum(scaled * scaled, axis=1, keepdims=True))
+    return np.asarray(scaled / np.where(largest > 0.0, lengths, 1.0))

@@ -1,0 +1,131 @@
+"""A scene, ready to be rendered as often and in as many ways as one likes; and how it is to be rendered."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from course.engine.core import scene as core
+from course.engine.formats.pictures.display import SRGB, Display
+from course.engine.formats.yaml.description import DenoiseDescription, SubdivisionDescription
+from course.engine.formats.yaml.loading import Loaded, load_description
+from course.engine.formats.yaml.overriding import Overrides
+from course.engine.functions.effects import Effects
+from course.engine.scene.building.world import Compiled, compile_scene
+
+Subdivision = SubdivisionDescription
+"""The file's settings for dividing pixels."""
+
+
+Denoising = DenoiseDescription
+"""The file's settings for a denoised preview."""
+
+
+@dataclass(frozen=True)
+class Settings(core.Settings):
+    """Render settings of a scene.
+
+    Attributes
+    ----------
+    error : the root-mean-square error [radiance] at which sampling ends; None samples all pixels alike
+    display : how a PNG shows the picture
+    subdivision : rays through the corners of cells, which are divided by contrast; None takes samples in pixels
+    denoise : a PNG shows means over neighbours; None shows the picture as rendered
+    """
+
+    error: float | None = None
+    display: Display = SRGB
+    subdivision: Subdivision | None = None
+    denoise: Denoising | None = None
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A checked and compiled scene file, bound to the functions that render its effects.
+
+    Attributes
+    ----------
+    loaded : the description, and where each of its values stands
+    compiled : the world that rays meet
+    effects : the student functions
+    """
+
+    loaded: Loaded
+    compiled: Compiled
+    effects: Effects
+
+    @property
+    def path(self) -> Path:
+        """The scene file."""
+        return self.loaded.path
+
+    @property
+    def title(self) -> str:
+        """Description of the picture from the file, or the file's name."""
+        return self.loaded.description.title or self.loaded.path.stem
+
+    @property
+    def settings(self) -> Settings:
+        """Render settings of the file."""
+        return settings_of(self.loaded)
+
+
+def settings_of(loaded: Loaded) -> Settings:
+    """Render settings of a scene file."""
+    scene = loaded.description
+    return Settings(
+        width=scene.film.width,
+        height=scene.film.height,
+        sampler=scene.sampler.type,
+        samples=scene.sampler.samples,
+        seed=scene.seed,
+        max_depth=scene.integrator.max_depth,
+        cutoff=scene.integrator.cutoff,
+        error=scene.film.error,
+        display=Display(scene.film.white, scene.film.encoding),
+        subdivision=scene.film.subdivision,
+        denoise=scene.film.denoise,
+    )
+
+
+Described = Callable[[Settings], None]
+"""Called with the settings of a scene that is being loaded."""
+
+
+def load_scene(
+    path: str | Path,
+    effects: str | Path | Effects | None = None,
+    described: Described = lambda _settings: None,
+) -> Scene:
+    """Read, check and compile a scene file.
+
+    Parameters
+    ----------
+    path : the YAML file
+    effects : whose functions to call: "solutions", "assignments", or a folder of modules; None means the solutions
+        where they are, and else the assignments
+    described : called when the file has been read and checked, before meshes are read
+
+    Raises
+    ------
+    SceneError
+        The file, or a mesh it names, can't be rendered; the message names file, line and key path.
+    EffectError
+        The folder of functions or one of its modules is missing.
+    """
+    return load_variant(path, None, effects, described)
+
+
+def load_variant(
+    path: str | Path,
+    overrides: Overrides | None = None,
+    effects: str | Path | Effects | None = None,
+    described: Described = lambda _settings: None,
+) -> Scene:
+    """`load_scene`, with other values at some key paths, such as ``{("lights", 0, "samples"): "ball"}``.
+
+    Raises SceneError, EffectError as `load_scene` does, and for an override of something that isn't there.
+    """
+    bound = effects if isinstance(effects, Effects) else Effects(effects)
+    loaded = load_description(Path(path), overrides)
+    described(settings_of(loaded))
+    return Scene(loaded, compile_scene(loaded, bound), bound)

@@ -1,0 +1,1 @@
+"""Cameras with what only some scenes have."""

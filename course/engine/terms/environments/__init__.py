@@ -1,0 +1,1 @@
+"""Surroundings: what they show, and the light that they send."""

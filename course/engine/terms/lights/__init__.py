@@ -1,0 +1,1 @@
+"""Lights of further kinds, and the choice among many."""

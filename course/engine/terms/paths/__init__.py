@@ -1,0 +1,1 @@
+"""Paths of light, followed from surface to surface."""

@@ -1,0 +1,1 @@
+"""How materials scatter light."""

@@ -1,0 +1,24 @@
+"""Materials with what only some scenes have: metals, and highlights by another convention."""
+
+from dataclasses import dataclass
+
+from course.engine.core.materials import MaterialTable
+from course.engine.core.types import Floats32
+from course.engine.terms.scattering.conductors import Conductors
+from course.engine.terms.scattering.other_highlights import Highlights
+
+
+@dataclass(frozen=True)
+class FullMaterials(MaterialTable):
+    """M materials.
+
+    Attributes
+    ----------
+    conductors : the metals, None where there are none
+    highlights : by other models than Blinn's with the cosine, None where there are none
+    unlit : (3, M) float32 radiance that textures colour, whatever the light [W/(m^2 sr)]; None where there is none
+    """
+
+    conductors: Conductors | None = None
+    highlights: Highlights | None = None
+    unlit: Floats32 | None = None

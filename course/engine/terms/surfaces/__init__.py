@@ -1,0 +1,1 @@
+"""Surfaces with textures and relief, and the structures that find them."""

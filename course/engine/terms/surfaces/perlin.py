@@ -1,0 +1,73 @@
+"""Gradient noise in space (K. Perlin, "Improving noise", 2002), as a colour of surfaces.
+
+Each whole point of space has one of 12 directions, by a table of shuffled numbers. Between them the directions' slopes
+are mixed by 6 t^5 - 15 t^4 + 10 t^3, so the noise and its first two derivatives are continuous. It is 0 at all whole
+points.
+"""
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Final
+
+import numpy as np
+
+from course.engine.core.types import Floats32
+
+PERIOD: Final = 256
+"""Whole points after which the table repeats."""
+
+GRADIENTS: Final = np.array(
+    [g for g in product((-1, 0, 1), repeat=3) if np.abs(g).sum() == 2], np.float32
+)
+"""(12, 3): from the middle of a cube to the middles of its edges."""
+
+TABLE: Final = np.random.default_rng(1985).permutation(PERIOD)
+
+ABSOLUTE = "absolute"
+
+
+def noise(x: Floats32) -> Floats32:
+    """Noise (n,), between -1 and 1, at points (3, n)."""
+    cell = np.floor(x)
+    t = x - cell
+    # The remainder comes first: far away a float32 is a whole number that no integer type holds.
+    whole = (cell % PERIOD).astype(np.int64)
+    fade = t * t * t * (t * (t * 6 - 15) + 10)
+    total = np.zeros(x.shape[1], np.float32)
+    for corner in product((0, 1), repeat=3):
+        weight = np.ones(x.shape[1], np.float32)
+        slot = np.zeros(x.shape[1], np.int64)
+        for axis, step in enumerate(corner):
+            weight *= fade[axis] if step else 1 - fade[axis]
+            slot = TABLE[(slot + whole[axis] + step) % PERIOD]
+        gradient = GRADIENTS[slot % len(GRADIENTS)]
+        away = t - np.array(corner, np.float32)[:, None]
+        total += weight * (gradient.T * away).sum(axis=0, dtype=np.float32)
+    return total
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Grey values of noise at places that the corners of triangles carry.
+
+    ``conversion``: "linear" for (noise + 1) / 2, "absolute" for |noise|
+    """
+
+    conversion: str
+
+    def __call__(self, barycentric: Floats32, corners: Floats32) -> Floats32:
+        """See ``ColorAt``."""
+        grey = self.grey(between(barycentric, corners))
+        return np.broadcast_to(grey, (3, len(grey))).astype(np.float32)
+
+    def grey(self, place: Floats32) -> Floats32:
+        """Values (n,) from 0 to 1 at places (3, n)."""
+        value = noise(place)
+        grey = np.abs(value) if self.conversion == ABSOLUTE else (value + 1) / 2
+        return np.asarray(np.clip(grey, 0, 1), np.float32)
+
+
+def between(barycentric: Floats32, corners: Floats32) -> Floats32:
+    """Places (3, n) by barycentrics (3, n) between what the corners carry (3 corners, 3, n)."""
+    place: Floats32 = (barycentric[:, None] * corners).sum(axis=0, dtype=np.float32)
+    return place

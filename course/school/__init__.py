@@ -1,0 +1,1 @@
+"""The course around the renderer: grading, quizzes, and the studio."""

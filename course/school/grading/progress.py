@@ -1,0 +1,170 @@
+"""How far one's own functions are: checked where they have changed, and remembered where they haven't."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from course.base.atomic import write_text
+from course.base.errors import OutputError
+from course.base.version import __version__
+from course.engine.functions.effects import PACKAGE
+from course.engine.functions.modules import COURSE, WARM_UP
+from course.school.grading.grading import grade
+from course.school.grading.references import references
+from course.school.grading.report import FunctionResults, docs_page, findings, grouped, reproduce
+from course.school.grading.submissions import find_modules, read_found
+from course.school.grading.worker.sandbox import plain
+
+KEPT = Path(".course", "checked.json")
+"""In the folder of the functions: what checks have found, for files that haven't changed since."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far one function is.
+
+    Attributes
+    ----------
+    module, name : which one
+    state : "right", "wrong", "to do" or "undecided"
+    points, of : earned, and to be earned
+    title, found : the first thing that is wrong: which law, and how it is broken; empty if there is none
+    again : the command that runs this check again
+    page : of the docs
+    file, line : where the function begins
+    """
+
+    module: str
+    name: str
+    state: str
+    points: float
+    of: float
+    title: str
+    found: str
+    again: str
+    page: str
+    file: str
+    line: int
+
+
+def progress(
+    folder: Path,
+    modules: Iterable[str] = tuple(COURSE),
+    before: Callable[[str], None] = lambda _module: None,
+) -> Iterator[list[Progress]]:
+    """The functions of one module after the other.
+
+    Raises SubmissionError: a file can't be read.
+
+    Parameters
+    ----------
+    folder : of the modules' files
+    before : called with the name of each module that has to be checked
+    """
+    kept = _read(folder / KEPT)
+    for module in modules:
+        paths = find_modules(folder, (module,))
+        sources = read_found(folder, paths)
+        key = _key(sources.get(module))
+        known = kept.get(module, {})
+        if known.get("key") != key:
+            before(module)
+            known = {"key": key, "functions": _checked(folder, module, sources)}
+            kept = _read(folder / KEPT) | {module: known}
+            _write(folder / KEPT, kept)
+        path = paths.get(module, folder / f"{module}.py")
+        yield [
+            Progress(**function, file=str(path), line=line_of(path, function["name"]))
+            for function in known["functions"]
+        ]
+
+
+def next_one(functions: list[Progress]) -> Progress | None:
+    """What is wrong first, then what is to do in a module that somebody has begun, then in the others."""
+    begun = {function.module for function in functions if function.state != "to do"}
+    order = ("wrong", "to do", "undecided")
+    left = [function for function in functions if function.state != "right"]
+    ranked = sorted(
+        left,
+        key=lambda one: (order.index(one.state), one.module not in begun, one.module != WARM_UP),
+    )
+    return ranked[0] if ranked else None
+
+
+def line_of(path: Path, function: str) -> int:
+    """The line that begins a function; 1 where there is none."""
+    try:
+        rows = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return 1
+    begins = f"def {function}("
+    return next((n for n, row in enumerate(rows, start=1) if row.startswith(begins)), 1)
+
+
+def _checked(folder: Path, module: str, sources: dict[str, bytes]) -> list[dict[str, Any]]:
+    report = grade(sources, references(), modules=(module,), shut_in=plain(), folder=folder)
+    return [_told(function) for each in grouped(report) for function in each.functions]
+
+
+def _told(function: FunctionResults) -> dict[str, Any]:
+    told = {
+        "module": function.module,
+        "name": function.name,
+        "state": function.state,
+        "points": function.points,
+        "of": function.of,
+        "title": "",
+        "found": "",
+        "again": "",
+        "page": docs_page(function.results[0]),
+    }
+    if function.state in ("wrong", "undecided") and function.told:
+        first = function.told[0]
+        found = dict(findings(first, 1))
+        told["title"] = first.found if first.module_wide else first.title
+        told["found"] = "; ".join(filter(None, (found.get("found"), found.get("hint"))))
+        told["again"] = f"{reproduce(first, 0)} --hint 2"
+    return told
+
+
+# ---------------------------------------------------------------- what is remembered
+
+
+def _key(source: bytes | None) -> str:
+    return hashlib.sha256(b"missing" if source is None else source).hexdigest()
+
+
+@cache
+def _checks() -> str:
+    """What results depend on beside the file: the version, and when the checks were changed last."""
+    newest = max(path.stat().st_mtime_ns for path in (PACKAGE / "school" / "grading").rglob("*.py"))
+    return f"{__version__} {newest}"
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+        return dict(document["modules"]) if document["checks"] == _checks() else {}
+    except (OSError, ValueError, KeyError, TypeError):
+        return {}
+
+
+def _write(path: Path, modules: dict[str, Any]) -> None:
+    try:
+        path.parent.mkdir(exist_ok=True)
+        write_text(path.parent / ".gitignore", "*\n")
+        write_text(path, json.dumps({"checks": _checks(), "modules": modules}))
+    except (OSError, OutputError):
+        # A folder that can't be written to is checked each time.
+        return
+
+
+def as_data(functions: Iterable[Progress]) -> list[dict[str, Any]]:
+    """Plain data."""
+    return [asdict(function) for function in functions]

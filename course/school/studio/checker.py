@@ -1,0 +1,75 @@
+"""Checks of one's functions in the background, by a process that can be ended at any time."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from course.base.processes import environment_apart
+from course.school.grading.worker.limits import end_tree
+
+NICE = 10
+"""Added to its niceness: pictures come first."""
+
+
+class Checker:
+    """Checks modules one after the other.
+
+    Parameters
+    ----------
+    folder : of the functions
+    event : called by a thread of its own with each line that ``course.school.studio.checking`` says, and {"done":
+        True}; each with the number of the ``run`` that it belongs to
+
+    Attributes
+    ----------
+    run : number of the present one; what is told of earlier ones is out of date
+    """
+
+    def __init__(self, folder: Path, event: Callable[[dict[str, Any]], None]) -> None:
+        self._folder, self._event = folder, event
+        self._process: subprocess.Popen[str] | None = None
+        self.run = 0
+
+    def check(self, modules: Sequence[str]) -> None:
+        """Check these modules, and end what is being checked."""
+        self.close()
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "course.school.studio.checking", str(self._folder), *modules],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            encoding="utf-8",
+            env=environment_apart(),
+            process_group=0 if os.name == "posix" else None,
+        )
+        if os.name == "posix":
+            with contextlib.suppress(OSError):
+                os.setpriority(os.PRIO_PROCESS, self._process.pid, NICE)
+        arguments = self._process, self.run
+        threading.Thread(target=self._listen, args=arguments, daemon=True).start()
+
+    def close(self) -> None:
+        """End it with the workers that it has started."""
+        process, self._process = self._process, None
+        self.run += 1
+        if process is None:
+            return
+        end_tree(process.pid)
+        process.wait()
+
+    def _listen(self, process: subprocess.Popen[str], run: int) -> None:
+        assert process.stdout is not None
+        with process.stdout as lines:
+            for line in lines:
+                with contextlib.suppress(ValueError):
+                    self._event(json.loads(line) | {"run": run})
+        self._event({"done": True, "run": run})

@@ -1,0 +1,140 @@
+"""Which scenes the fused loop takes, and that numbers and camera rays as arrays give the same pictures."""
+
+from dataclasses import fields, is_dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.engine.functions.effects import PROJECT, Effects
+from course.engine.loops import library
+from course.engine.loops.fits import KNOWN, fits, lists_all_fields, makes_camera_rays
+from course.engine.render.binding import bind
+from course.engine.render.render import render
+from course.engine.scene.scene import Scene, load_scene
+from course.engine.terms.samplers import FUNCTIONS
+from tests.forms import needs_numba
+
+SCENES = PROJECT / "scenes"
+OTHERS = [name for name in FUNCTIONS if name != "sobol"]
+
+
+def bound(scene: Scene, **changed: Any) -> Any:
+    from dataclasses import replace
+
+    return bind(scene, replace(scene.settings, **changed))
+
+
+@pytest.mark.parametrize("kind", KNOWN, ids=lambda kind: kind.__name__)
+def test_all_fields_of_a_part_that_fits_are_listed(kind: type) -> None:
+    """Who adds a field says in the list what the loop does with it; until then no scene with the part fits."""
+    assert lists_all_fields(kind)
+    if is_dataclass(kind):
+        known = KNOWN[kind]
+        listed = f"{known.parts} {known.values} {known.absent}".split()
+        assert set(listed) <= {each.name for each in fields(kind)} | {"limit", "color"}
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("soft_shadows", True),
+        ("motion_blur", True),
+        ("path_tracing", True),
+        ("textures", False),
+        ("many_lights", False),
+        ("microfacets", False),
+        ("bounding_volumes", False),
+    ],
+)
+def test_scenes_of_the_course(name: str, expected: bool) -> None:
+    assert fits(bound(load_scene(SCENES / f"{name}.yaml"), sampler="sobol")) == expected
+
+
+def test_a_part_of_an_unknown_type_does_not_fit() -> None:
+    tracer = bound(load_scene(SCENES / "soft_shadows.yaml"), sampler="sobol")
+    assert fits(tracer)
+    light = tracer.integrator.direct.lights[0]
+    # A subclass may do anything else; so it is another type.
+    other = type("Other", (type(light),), {})(
+        **{each.name: getattr(light, each.name) for each in fields(light)}
+    )
+    object.__setattr__(tracer.integrator.direct, "lights", (other,))
+    assert not fits(tracer)
+
+
+@needs_numba
+@pytest.mark.parametrize("sampler", OTHERS)
+@pytest.mark.parametrize("name", ["glossy", "thin_lens", "motion_blur"])
+def test_other_samplers_are_drawn_as_arrays(name: str, sampler: str) -> None:
+    scene = load_scene(SCENES / f"{name}.yaml")
+    size = (32, 24) if FUNCTIONS[sampler][0][0] == "blue_noise" else (30, 20)
+    options: dict[str, Any] = {"spp": 16, "size": size, "sampler": sampler, "seed": 3}
+    tracer = bound(scene, sampler=sampler, samples=16)
+    assert fits(tracer)
+    assert not makes_camera_rays(tracer)
+    loop = render(scene, compiled=True, threads=2, **options)
+    batches = render(scene, compiled=False, threads=1, **options)
+    assert np.array_equal(loop.linear, batches.linear)
+    assert loop.receipt.rays == batches.receipt.rays
+    assert loop.receipt.numbers == batches.receipt.numbers
+
+
+class Swapped(Effects):
+    """The solutions, some of them in a form that is nobody's own: as a student's would be."""
+
+    def __init__(self, *names: str) -> None:
+        super().__init__("solutions")
+        self._names = names
+
+    def function(self, module: str, name: str) -> Any:
+        """See ``Effects``."""
+        function = super().function(module, name)
+        return partial(function) if f"{module}.{name}" in self._names else function
+
+
+OWN = {
+    "thin_lens": ("thin_lens.point_on_disk", "thin_lens.lens_rays"),
+    "motion_blur": ("motion_blur.shutter_times",),
+    "supersampling": ("supersampling.jittered", "supersampling.resolve"),
+}
+
+
+@needs_numba
+@pytest.mark.parametrize("module", OWN)
+def test_a_students_lens_shutter_and_pixel_functions_make_rays_for_the_loop(module: str) -> None:
+    scene = load_scene(SCENES / f"{module}.yaml", Swapped(*OWN[module]))
+    sampler = "jittered" if module == "supersampling" else "sobol"
+    tracer = bound(scene, sampler=sampler)
+    assert fits(tracer)
+    assert not makes_camera_rays(tracer)
+    options: dict[str, Any] = {"spp": 16, "size": (30, 20), "sampler": sampler}
+    loop = render(scene, compiled=True, threads=1, **options)
+    assert loop.linear.any()
+    assert np.array_equal(loop.linear, render(scene, compiled=False, **options).linear)
+
+
+def test_a_students_other_functions_are_called_by_batches() -> None:
+    for name, function in (
+        ("soft_shadows", "soft_shadows.point_on_sphere"),
+        ("motion_blur", "motion_blur.to_object_space"),
+        ("glossy", "glossy.keep_above"),
+    ):
+        scene = load_scene(SCENES / f"{name}.yaml", Swapped(function))
+        assert not fits(bound(scene, sampler="sobol")), function
+
+
+@pytest.mark.skipif(not library.available(), reason="Numba is not installed")
+def test_the_answer_reads_no_loop() -> None:
+    """Numba takes half a second to be read: a scene that doesn't fit doesn't wait for it."""
+    import subprocess
+    import sys
+
+    program = (
+        "import sys; from course import load_scene; from course.engine.loops.fits import fits;"
+        "from course.engine.render.binding import bind;"
+        f"scene = load_scene({str(SCENES / 'textures.yaml')!r});"
+        "assert not fits(bind(scene, scene.settings)); assert 'numba' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)

@@ -1,0 +1,51 @@
+"""Packets of 4, 8 and 16 rays make the same picture; each width that isn't this process's in one of its own."""
+
+import os
+from hashlib import sha256
+
+import pytest
+
+from course import load_scene, render
+from course.base.errors import CourseError
+from course.engine.functions.effects import PROJECT
+from course.engine.loops import library
+from course.engine.loops.library import NATIVE, WIDTH_VARIABLE
+from tests.processes import python
+
+if not library.available() or library.library() is None:
+    pytest.skip("Numba or Embree is not installed (pip install .[fast])", allow_module_level=True)
+
+SCENE = PROJECT / "scenes" / "glossy.yaml"
+PROGRAM = """
+import sys
+from hashlib import sha256
+from course import load_scene, render
+from course.engine.loops import library
+picture = render(load_scene(sys.argv[1]), spp=4, size=(30, 20), sampler="sobol", compiled=True, threads=1)
+print(library.width(), sha256(picture.linear.tobytes()).hexdigest(), picture.receipt.rays["shadow"])
+"""
+
+
+@pytest.mark.parametrize("width", sorted({*NATIVE} - {library.width()}))
+def test_every_width_makes_the_picture_of_single_rays(width: int) -> None:
+    done = python("-c", PROGRAM, SCENE, environment={**os.environ, WIDTH_VARIABLE: str(width)})
+    single = render(load_scene(SCENE), spp=4, size=(30, 20), sampler="sobol", compiled=False)
+    expected = sha256(single.linear.tobytes()).hexdigest()
+    assert done.stdout.split() == [str(width), expected, str(single.receipt.rays["shadow"])]
+
+
+def test_the_device_says_how_wide_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(WIDTH_VARIABLE, raising=False)
+    embree, device = library.library(), library.device()
+    assert embree is not None
+    width = library.width.__wrapped__()
+    asked = {n: bool(embree.rtcGetDeviceProperty(device, number)) for n, number in NATIVE.items()}
+    assert width == max((n for n, native in asked.items() if native), default=4)
+
+
+@pytest.mark.parametrize("wanted", ["5", "32", "wide"])
+def test_another_width_is_refused(wanted: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(WIDTH_VARIABLE, wanted)
+    if library.chosen() == "embree":
+        with pytest.raises(CourseError, match="expected 4, 8 or 16"):
+            library.width.__wrapped__()
