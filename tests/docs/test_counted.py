@@ -10,7 +10,7 @@ from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE, FURTHER, MODULES
 from course.engine.functions.signatures import CONTRACTS
 from course.school.grading.known import known
-from tests.test_layers import LAYERS
+from tests.test_layers import floors
 
 DOCS = PROJECT / "docs"
 
@@ -60,10 +60,13 @@ def test_the_site_lists_the_modules_in_their_order(caption: str, modules: Collec
         assert number(word) == len(modules)
 
 
-def test_the_layers_are_those_that_imports_are_held_to() -> None:
-    rows = re.findall(r"^\| (\d+) \| (.*?) \|", text_of(DOCS / "architecture.md"), re.MULTILINE)
-    told = {name: int(layer) for layer, names in rows for name in re.findall(r"`(\w+)`", names)}
-    assert told == {name: layer for name, layer in LAYERS.items() if not name.startswith("__")}
+def test_the_page_tells_every_room() -> None:
+    rows = re.findall(r"^\| (`[\w/`, ]+`) \|", text_of(DOCS / "architecture.md"), re.MULTILINE)
+    told = re.findall(r"`([\w/]+)`", " ".join(rows))
+    inner = {wing: set(floors(f"course.{wing}")) for wing in ("engine", "school")}
+    rooms = {name for name in floors("course") if not name.startswith("__")} - inner.keys()
+    rooms |= {f"{wing}/{name}" for wing, names in inner.items() for name in names}
+    assert sorted(told) == sorted(rooms)
 
 
 def test_every_function_of_the_course_is_counted() -> None:
