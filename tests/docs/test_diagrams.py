@@ -356,5 +356,5 @@ def test_the_picture_of_the_house_has_every_room_and_its_arrows_lead_down() -> N
 
 def test_a_circle_has_no_floor() -> None:
     assert house.floors({"a": set(), "b": {"a"}, "c": {"a", "b"}}) == [["a"], ["b"], ["c"]]
-    with pytest.raises(ValueError, match="in a circle: .*'b'"):
+    with pytest.raises(ValueError, match=r"in a circle: .*'b'"):
         house.floors({"a": set(), "b": {"c"}, "c": {"b"}})
