@@ -178,7 +178,11 @@ def test_one_file_knows_embree() -> None:
 @pytest.mark.parametrize(
     ("module", "source", "told"),
     [
-        ("course.base.errors", "import course.cli.main", "from base on floor 0 up to cli on floor 4"),
+        (
+            "course.base.errors",
+            "import course.cli.main",
+            "from base on floor 0 up to cli on floor 4",
+        ),
         (
             "course.engine.terms.plan",
             "def f():\n    from course.engine.render import binding",

@@ -10,7 +10,7 @@ from course.engine.core.types import Functions
 from course.engine.formats.yaml import description as d
 from course.engine.functions.effects import Bound, Need
 from course.engine.render.adaptive.costs import RowOfCosts
-from course.engine.scene.building.world import compile_camera
+from course.engine.scene.building.cameras import compile_camera
 from course.engine.scene.scene import Scene, Settings
 from course.engine.terms.paths.path_tracing import PathIntegrator
 from course.engine.terms.plan import plan

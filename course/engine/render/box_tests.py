@@ -7,7 +7,7 @@ import numpy as np
 from course.engine.core.types import Indices
 from course.engine.formats.pictures.display import heat_map
 from course.engine.formats.pictures.files import save
-from course.engine.scene.building.world import compile_camera
+from course.engine.scene.building.cameras import compile_camera
 from course.engine.scene.scene import Scene, Settings
 from course.engine.terms.surfaces.hierarchy import HierarchyAccelerator
 

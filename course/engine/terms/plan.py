@@ -119,14 +119,17 @@ def _sky(world: FullWorld) -> Sky | None:
 def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     materials = world.materials
     direct = plan_direct_light(world, sky is not None)
-    highlights = materials.highlights if isinstance(materials, FullMaterials) else None
     choice = world.choice if world.lights else None
     if direct is None:
         return None
     shine = getattr(world.surface, "shine", None)
-    if highlights is not None or shine is not None:
+    full = materials if isinstance(materials, FullMaterials) else None
+    if shine is not None or (full and (full.highlights or full.plain is not None)):
         known = same_fields(direct.reflection)
-        direct = replace(direct, reflection=FullReflection(**known, highlights=highlights))
+        reflection = FullReflection(**known)
+        if full:
+            reflection = replace(reflection, highlights=full.highlights, plain=full.plain)
+        direct = replace(direct, reflection=reflection)
     return replace(direct, sky=sky, choice=choice)
 
 

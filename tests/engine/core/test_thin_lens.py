@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 from course.engine.render.binding import bind
-from course.engine.scene.building.world import compile_camera
+from course.engine.scene.building.cameras import compile_camera
 from tests.conftest import MakeScene
 
 Array = NDArray[np.float64]

@@ -8,8 +8,8 @@ import pytest
 
 from course import Scene, render
 from course.base.errors import SceneError
+from course.engine.scene.building.cameras import compile_camera
 from course.engine.scene.building.objects import object_mesh
-from course.engine.scene.building.world import compile_camera
 from course.engine.shapes.mesh import Mesh
 from tests.tables import put, rows
 

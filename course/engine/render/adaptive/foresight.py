@@ -9,7 +9,7 @@ from course.engine.render.adaptive.reflections import Reflections
 from course.engine.render.adaptive.seen_ahead import View, can_be_asked
 from course.engine.render.adaptive.unbounded import unbounded
 from course.engine.render.job import Job
-from course.engine.scene.building.world import compile_camera
+from course.engine.scene.building.cameras import compile_camera
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Cameras from where they are and which way they look, and lenses from their descriptions."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from course.engine.core.camera import Camera, Lens
@@ -7,6 +9,7 @@ from course.engine.core.types import Floats64
 from course.engine.formats.yaml.loading import Loaded
 from course.engine.functions.effects import Bound
 from course.engine.scene.building.frame import Frame, in_reach
+from course.engine.scene.building.motion import shutter_of
 from course.engine.scene.building.sampled_points import DISK, DISKS
 from course.engine.terms.cameras.apertures import PolygonLens, SquareLens
 from course.engine.terms.cameras.near_plane import NearPlaneCamera
@@ -130,3 +133,44 @@ def compile_lens(loaded: Loaded, frame: Frame, bound: Bound) -> Lens | None:
     function = DISKS[lens.samples]
     sampling = bound.functions("sampling", function, asked_by=(*path, "samples"))
     return SampledLens(*known, sampling, rejects=lens.samples == DISK)
+
+
+STEEPEST = 1e6
+"""Sideways over forwards, of the widest ray: beyond it float32 forgets that rays go forwards at all."""
+
+
+def _check_slopes(edges: Floats64, loaded: Loaded, key: str) -> None:
+    steepest = float(np.abs(edges).max())
+    if not steepest < STEEPEST:
+        raise loaded.document.error(
+            ("camera", key),
+            f"the widest ray goes {steepest:.3g} times as far sideways as forwards: expected less than {STEEPEST:g}",
+        )
+
+
+def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Camera:
+    """The camera for a picture of that size."""
+    camera = loaded.description.camera
+    start = shutter_of(loaded).start(camera.motion)
+    eye = frame.position(np.array(camera.eye) + start)
+    in_reach(eye, loaded, ("camera", "eye"), "the camera's distance")
+    near = camera.near / frame.scale
+    in_reach(np.array(near), loaded, ("camera", "near"), "the distance from which the camera sees")
+    # In the file's units: in a huge scene the two positions may round to one.
+    view, up = np.array(camera.look_at) - np.array(camera.eye), np.array(camera.up)
+    plane = camera.image_plane
+    if plane is not None:
+        edges = np.array((plane.left, plane.right, plane.bottom, plane.top)) / plane.distance
+        _check_slopes(edges, loaded, "image_plane")
+    else:
+        fov = np.radians(camera.vertical_fov)
+        edges = np.tan(fov / 2) * np.array((-width / height, width / height, -1, 1))
+        _check_slopes(edges, loaded, "vertical_fov")
+        if camera.handedness == "right":
+            return make_camera(eye, view, up, fov, width, height, near)
+    if camera.handedness == "right":
+        return make_window_camera(eye, view, up, edges, width, height, near)
+    # A point at x to the right is shown at -x. The lens is mirrored, too.
+    edges[:2] *= -1
+    mirrored = make_window_camera(eye, view, up, edges, width, height, near)
+    return replace(mirrored, right=-mirrored.right)

@@ -1,6 +1,7 @@
 """From gloss descriptions to lobes, and from what is rough to rough glass and to microfacets."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import msgspec
 import numpy as np
@@ -38,6 +39,28 @@ def lobe_of(material: d.MaterialDescription, cutoff: float) -> tuple[str, str, f
 def calls_module(gloss: d.Gloss | None) -> bool:
     """True if a gloss samples its directions by the module glossy."""
     return not (isinstance(gloss, d.PlaneLobe) and gloss.basis == "smallest")
+
+
+@dataclass(frozen=True)
+class Scattering:
+    """What mirrors and refracts otherwise than a smooth surface; see ``FullWorld``."""
+
+    lobes: tuple[Lobe, ...]
+    rough: tuple[RoughGlass, ...]
+    microfacets: tuple[Microfacets, ...]
+
+
+def compile_scattering(
+    materials: Sequence[tuple[str, d.MaterialDescription]],
+    bound: Bound,
+    integrator: d.IntegratorDescription,
+) -> Scattering:
+    """Glossy lobes, rough glass and microfacets of the materials, which have their names before them."""
+    mirrors = [(name, reflecting(material)) for name, material in materials]
+    lobes = compile_lobes(mirrors, bound, integrator)
+    microfacets = compile_microfacets(materials, bound, integrator)
+    rough = compile_rough_glass(materials, lobes, bound, integrator)
+    return Scattering(lobes, rough, microfacets)
 
 
 def compile_lobes(

@@ -16,9 +16,9 @@ from course.engine.formats.yaml.description import (
 )
 from course.engine.formats.yaml.loading import Loaded
 from course.engine.scene.building.frame import BRIGHTEST, Frame
+from course.engine.scene.building.highlights import compile_highlights, plain_highlights
 from course.engine.terms.scattering.conductors import Conductors
 from course.engine.terms.scattering.materials import FullMaterials
-from course.engine.terms.scattering.other_highlights import Highlights
 from course.engine.terms.world import FullWorld
 
 DEFAULT_COLOR = 0.8
@@ -96,24 +96,6 @@ def _conductors(materials: Mapping[str, MaterialDescription], count: int) -> Con
     return Conductors(metal, n, k, approximate if approximate.any() else None)
 
 
-def _highlights(materials: Mapping[str, MaterialDescription], count: int) -> Highlights | None:
-    plain, mirrored, facets, covers = np.zeros((4, count), np.bool_)
-    straight = np.zeros(count, np.float32)
-    for column, material in enumerate(materials.values()):
-        known = material.facets
-        if not (rgb(material.specular).any() or (known is not None and known.covers)):
-            continue
-        plain[column] = material.highlight.startswith("plain")
-        mirrored[column] = material.highlight.endswith("phong")
-        if known is not None:
-            facets[column], covers[column] = True, known.covers
-            n, k = known.refraction_index, known.absorption_index
-            straight[column] = ((n - 1) ** 2 + k * k) / ((n + 1) ** 2 + k * k)
-    if not (plain | mirrored | facets).any():
-        return None
-    return Highlights(plain, mirrored, facets, straight, covers if covers.any() else None)
-
-
 def compile_materials(
     materials: Mapping[str, MaterialDescription], emission: list[Floats64], frame: Frame
 ) -> FullMaterials:
@@ -155,7 +137,8 @@ def compile_materials(
         emitted.astype(f),
         np.arange(max(count, 1)) >= len(materials),
         conductors=_conductors(materials, max(count, 1)),
-        highlights=_highlights(materials, max(count, 1)),
+        highlights=compile_highlights(materials, max(count, 1)),
+        plain=plain_highlights(materials, max(count, 1)),
         unlit=unlit.astype(f) if unlit.any() else None,
     )
 

@@ -7,47 +7,50 @@ import numpy as np
 from course.engine.core.direct import Candidates, Sums
 from course.engine.core.hits import Hits
 from course.engine.core.reflection import BlinnPhong
-from course.engine.core.types import Floats32
+from course.engine.core.types import Floats32, Mask
 from course.engine.core.vectors import dot
-from course.engine.terms.scattering.other_highlights import Highlights
+from course.engine.terms.scattering.highlight import Highlight
 
 
 @dataclass(frozen=True)
 class FullReflection(BlinnPhong):
     """See ``Reflection``.
 
-    ``highlights`` : by other models than Blinn's with the cosine; None if there are none
+    Attributes
+    ----------
+    highlights : by other models than Blinn's
+    plain : (M,) bool, materials whose highlights lack the cosine in E; None if there are none
     """
 
-    highlights: Highlights | None = None
+    highlights: tuple[Highlight, ...] = ()
+    plain: Mask | None = None
 
     def arriving(self, hits: Hits, candidates: Candidates) -> Floats32:
-        """See ``BlinnPhong``; less what facets over the diffuse term reflect."""
-        models, irradiance = self.highlights, candidates.irradiance
-        if models is None or models.covers is None:
-            return irradiance
-        return irradiance * models.left(*_ways(hits, candidates), candidates.of(hits.material))
+        """See ``BlinnPhong``; less what highlights over the diffuse term reflect."""
+        irradiance = candidates.irradiance
+        for model in self.highlights:
+            left = model.left(*_ways(hits, candidates), candidates.of(hits.material))
+            if left is not None:
+                irradiance = irradiance * left
+        return irradiance
 
     def highlight(self, hits: Hits, candidates: Candidates) -> Floats32:
         """See ``BlinnPhong``."""
         highlight = super().highlight(hits, candidates)
-        models = self.highlights
-        if models is None:
-            return highlight
         material = candidates.of(hits.material)
-        if models.others is not None:
-            which = np.flatnonzero(models.others.take(material))
-            to_light, direction = _ways(hits, candidates)
-            highlight[which] = candidates.irradiance.take(which) * models.factor(
+        to_light, direction = _ways(hits, candidates)
+        for model in self.highlights:
+            which = np.flatnonzero(model.materials.take(material))
+            highlight[which] = candidates.irradiance.take(which) * model.factor(
                 to_light if to_light.shape[1] == 1 else to_light.take(which, axis=1),
                 direction.take(which, axis=1),
                 candidates.of(hits.ns).take(which, axis=1),
                 self.exponent(material.take(which)),
                 material.take(which),
             )
-        if models.plain.any():
+        if self.plain is not None:
             cosine = dot(candidates.of(hits.ns), candidates.to_light) * candidates.inverse_length
-            plain = models.plain.take(material)
+            plain = self.plain.take(material)
             highlight /= np.where(plain, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
         return highlight
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from course import Scene
-from course.engine.scene.building.world import compile_camera
+from course.engine.scene.building.cameras import compile_camera
 from tests.engine.formats.metu.conftest import MATT, Metu, Tree, tree
 
 TILTED: Tree = {

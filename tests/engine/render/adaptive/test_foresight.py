@@ -30,7 +30,7 @@ from course.engine.render.adaptive.pixel_groups import PixelGroup
 from course.engine.render.adaptive.prior import Prior
 from course.engine.render.adaptive.seen_ahead import View
 from course.engine.render.job import Job
-from course.engine.scene.building.world import compile_camera
+from course.engine.scene.building.cameras import compile_camera
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
