@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from course.benchmarking.curves import Order, fit_order
+from course.benchmarking.curves import ConvergenceOrder, fit_order
 from course.benchmarking.plot_data import Plot, Series
 from course.engine.core.types import Floats64
 
@@ -55,7 +55,7 @@ class Curve:
     name: str
     counts: tuple[int, ...]
     mse: Floats64
-    order: Order
+    order: ConvergenceOrder
     seconds: tuple[float, ...]
 
     @property

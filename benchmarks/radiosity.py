@@ -21,7 +21,7 @@ from course.benchmarking.tables import Columns, Table, table_of
 from course.engine.core.types import Floats32, Floats64
 from course.engine.functions.effects import PROJECT
 from course.engine.radiosity.hemicubes import Views, make_hemicube
-from course.engine.radiosity.patches import Functions, Patches, make_patches
+from course.engine.radiosity.patches import Patches, RadiosityFunctions, make_patches
 from course.engine.radiosity.radiosity import PATCHES, TOLERANCE, as_solution
 from course.engine.radiosity.solving import GATHERED, Shooting, Solved, form_factors, with_ambient
 from course.engine.radiosity.viewing import Solution, look, own_view
@@ -81,7 +81,7 @@ class Difference:
 def measure_radiosity() -> list[Figure]:
     """Seconds to convergence, the error that is left there, and how far traced paths are."""
     scene = load_scene(SCENE)
-    functions = Functions(scene.effects)
+    functions = RadiosityFunctions(scene.effects)
     few = make_patches(scene, GATHERED)
     iterations = iterate(few, functions)
     started = perf_counter()
@@ -177,7 +177,10 @@ def shot_table(rows: Iterable[Row], patches: Patches) -> Table:
 
 
 def iterate(
-    patches: Patches, functions: Functions, steps: Sequence[int] = ITERATIONS, cells: int = CELLS
+    patches: Patches,
+    functions: RadiosityFunctions,
+    steps: Sequence[int] = ITERATIONS,
+    cells: int = CELLS,
 ) -> dict[int, Solved]:
     """What gathering has after so many iterations; ``left`` is the light that is still missing then.
 

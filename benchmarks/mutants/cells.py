@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from course.school.grading.classes.notebooks import read_notebook
-from course.school.grading.known import Known
+from course.school.grading.known import KnownSubmission
 
 NOISE = (
     "%matplotlib inline\nimport matplotlib.pyplot as plt",
@@ -38,7 +38,7 @@ def in_cells(source: str, rng: random.Random) -> bytes:
     return json.dumps({"cells": made, "nbformat": 4}).encode()
 
 
-def as_notebook(submission: Known, seed: int) -> Known:
+def as_notebook(submission: KnownSubmission, seed: int) -> KnownSubmission:
     """A submission with what is read from its notebook in the place of its file."""
     content = in_cells(submission.source, random.Random(f"{seed} {submission.name}"))
     found = read_notebook(f"{submission.name}.ipynb", content, [submission.module])

@@ -44,7 +44,7 @@ from course.engine.functions.modules import COURSE
 from course.school.grading.catalog import module_checks
 from course.school.grading.checks.result import Status
 from course.school.grading.checks.running import run_checks
-from course.school.grading.known import Known, known, trusted
+from course.school.grading.known import KnownSubmission, known, trusted
 from course.school.grading.references import make_references, prepared, read_references, reference
 from course.school.grading.worker.client import Worker
 from course.school.grading.worker.limits import Limits
@@ -147,7 +147,7 @@ def main(
     sys.exit(1 if faults or changed else 0)
 
 
-def _judged(submission: Known, seed: int, file: Path) -> Verdict:
+def _judged(submission: KnownSubmission, seed: int, file: Path) -> Verdict:
     arrays = read_references(file, seed)
     with Worker(
         submission.module, submission.source.encode(), Limits(call_seconds=60, cpu_seconds=600)
@@ -159,7 +159,7 @@ def _judged(submission: Known, seed: int, file: Path) -> Verdict:
     return replace(verdict, fault=verdict.fault or unfair(found), marks=found)
 
 
-def _by_function(submission: Known, seed: int, file: Path) -> Verdict:
+def _by_function(submission: KnownSubmission, seed: int, file: Path) -> Verdict:
     """A variant, by the checks of its function that render nothing."""
     return judge(
         submission,

@@ -11,7 +11,7 @@ from course.school.grading.checks.declare import declared_function
 from course.school.grading.checks.mistakes import SLIPS
 from course.school.grading.checks.result import Result, Status
 from course.school.grading.checks.running import run_checks
-from course.school.grading.known import Known, trusted
+from course.school.grading.known import KnownSubmission, trusted
 from course.school.grading.references import reference
 
 WIDTH = max(map(len, COURSE)) + 2
@@ -51,7 +51,7 @@ class Verdict:
     marks : what a wrong submission earned, where all checks were run
     """
 
-    submission: Known
+    submission: KnownSubmission
     failed: tuple[str, ...]
     told: str
     fault: str
@@ -60,7 +60,7 @@ class Verdict:
 
 
 def judge(
-    submission: Known,
+    submission: KnownSubmission,
     caller: Caller,
     references: References,
     seed: int,
@@ -129,7 +129,7 @@ def recorded(verdicts: Iterable[Verdict]) -> Record:
     return found
 
 
-def explaining(record: Record, submissions: Iterable[Known]) -> dict[str, list[str]]:
+def explaining(record: Record, submissions: Iterable[KnownSubmission]) -> dict[str, list[str]]:
     """Which checks each named mistake fails: "thin_lens.point_on_disk/crowded-centre" -> names of checks."""
     found: dict[str, set[str]] = {}
     for known in submissions:
@@ -159,7 +159,7 @@ def changes(before: Record, after: Record) -> list[str]:
     return lines
 
 
-def _fault(submission: Known, wrong: list[Result], meant: list[Result]) -> str:
+def _fault(submission: KnownSubmission, wrong: list[Result], meant: list[Result]) -> str:
     broken = [result for result in wrong if result.broken]
     if broken:
         return f"the grader's own error in {broken[0].id}: {broken[0].found}"

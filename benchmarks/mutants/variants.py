@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from course.school.grading.checks.declare import declared_function
-from course.school.grading.known import Known, known
+from course.school.grading.known import KnownSubmission, known
 
 WRAPPED = '''
 
@@ -31,14 +31,14 @@ _BODIES = {
 }
 
 
-def variants(module: str) -> Iterator[Known]:
+def variants(module: str) -> Iterator[KnownSubmission]:
     """Those of all wrong submissions of a module."""
     for submission in known(module):
         if not submission.right:
             yield from variants_of(submission)
 
 
-def variants_of(submission: Known) -> Iterator[Known]:
+def variants_of(submission: KnownSubmission) -> Iterator[KnownSubmission]:
     """Of one wrong submission; none where nothing may be exchanged, or where it writes to u, which would be a copy."""
     if submission.caught_by == "untouched":
         return

@@ -47,7 +47,7 @@ _BLOCK: Final = 4096
 
 
 @dataclass(frozen=True)
-class Bound:
+class InputLimit:
     """The most that may be read, in bytes or pixels, and the scene's key for it; "" where there is none."""
 
     most: int
@@ -67,7 +67,7 @@ def shown(path: Path) -> str:
 
 @contextmanager
 def opened(
-    path: Path, what: str, bound: Bound, error: type[CourseError] = CourseError
+    path: Path, what: str, bound: InputLimit, error: type[CourseError] = CourseError
 ) -> Iterator[BufferedReader]:
     """Open a regular file for reading; symbolic links are followed.
 
@@ -95,7 +95,7 @@ def opened(
 
 
 def read_input(
-    path: Path, what: str, bound: Bound, error: type[CourseError] = CourseError
+    path: Path, what: str, bound: InputLimit, error: type[CourseError] = CourseError
 ) -> bytes:
     """Content of a file; parameters and errors as of `opened`, and one for nothing but zeros at the start."""
     with opened(path, what, bound, error) as stream:
@@ -154,12 +154,12 @@ def read_arrays(
     Raises CourseError as `opened` does, and for a file that isn't one, that holds objects, or arrays of more than
     LARGEST_ARRAYS.
     """
-    with opened(path, what, Bound(LARGEST_ARRAYS)) as stream:
+    with opened(path, what, InputLimit(LARGEST_ARRAYS)) as stream:
         try:
             with zipfile.ZipFile(stream) as archive:
                 size = sum(each.file_size for each in archive.infolist())
             if size > LARGEST_ARRAYS:
-                raise CourseError(_too_large(path, what, Bound(LARGEST_ARRAYS)))
+                raise CourseError(_too_large(path, what, InputLimit(LARGEST_ARRAYS)))
             stream.seek(0)
             with np.load(stream, allow_pickle=False) as arrays:
                 found = {name: arrays[name] for name in arrays.files if wanted(name)}
@@ -193,5 +193,5 @@ def _irregular(path: Path, what: str, folder: bool) -> str:
     return f"{shown(path)}: {kind}: expected a {what}"
 
 
-def _too_large(path: Path, what: str, bound: Bound) -> str:
+def _too_large(path: Path, what: str, bound: InputLimit) -> str:
     return f"{shown(path)}: more than {bound.most:,} bytes: too large for a {what}{bound.remedy}"

@@ -21,7 +21,7 @@ CONFIDENCE = 0.95
 
 
 @dataclass(frozen=True)
-class Order:
+class ConvergenceOrder:
     """A fitted convergence order: the error goes as samples^value.
 
     Attributes
@@ -38,7 +38,7 @@ class Order:
     last: int
 
 
-def fit_order(samples: Floats64, mse: Floats64, floor: float = 0.0) -> Order | None:
+def fit_order(samples: Floats64, mse: Floats64, floor: float = 0.0) -> ConvergenceOrder | None:
     """Fit an order by least squares on logarithmic scales, and its interval by the bootstrap over seeds.
 
     Returns None where fewer than 3 points count. With one seed the interval is infinite.
@@ -72,7 +72,7 @@ def fit_order(samples: Floats64, mse: Floats64, floor: float = 0.0) -> Order | N
         student = float(stdtrit(seeds - 1, 0.5 + CONFIDENCE / 2))
         spread = student * correction * float(slopes.std())
     used = samples[counts]
-    return Order(slope, slope - spread, slope + spread, int(used[0]), int(used[-1]))
+    return ConvergenceOrder(slope, slope - spread, slope + spread, int(used[0]), int(used[-1]))
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ class Curve:
         return inverse
 
     @property
-    def order(self) -> Order | None:
+    def order(self) -> ConvergenceOrder | None:
         """The fitted convergence order; None where too few errors are clearly above the reference's."""
         return fit_order(self.samples, self.mse, self.reference.error)
 

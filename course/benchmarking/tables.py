@@ -9,7 +9,7 @@ from typing import TypeVar
 import click
 import numpy as np
 
-from course.benchmarking.curves import Converged, Curve, Order
+from course.benchmarking.curves import Converged, ConvergenceOrder, Curve
 from course.benchmarking.measuring import Measured
 
 COMMON = 64
@@ -216,11 +216,11 @@ def digits(value: float) -> str:
     return f"{rounded:,.{max(places, 0)}f}"
 
 
-def _order(order: Order | None) -> str:
+def _order(order: ConvergenceOrder | None) -> str:
     return NONE if order is None else f"{order.value:.2f}"
 
 
-def order_with_interval(order: Order | None) -> str:
+def order_with_interval(order: ConvergenceOrder | None) -> str:
     """An order and its 95% interval, -0.50 (-0.55 .. -0.45); a dash for none."""
     if order is None:
         return NONE

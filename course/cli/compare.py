@@ -15,7 +15,7 @@ from course.cli.outputs import check_outputs
 from course.cli.tables import Section, print_sections
 
 if TYPE_CHECKING:
-    from course.engine.comparing.comparison import Comparison, Found
+    from course.engine.comparing.comparison import Comparison, Finding
     from course.engine.comparing.seen import Seen
 
 DIFFERENT = 1
@@ -29,7 +29,7 @@ TESTS = {
     "shapes": ("alike across", "alike down", "one sign"),
     "spot": ("spot",),
 }
-"""Names of tests, and the kinds of `course.engine.comparing.comparison.Found` that each looks for."""
+"""Names of tests, and the kinds of `course.engine.comparing.comparison.Finding` that each looks for."""
 
 FEW = 0.5
 """Share of pixels that differ, below which noise is not what makes the difference: it would make nearly all differ."""
@@ -180,7 +180,7 @@ def _sections(found: Comparison, differences: list[Seen], significance: float) -
     ]
 
 
-def _p_value(least: Found) -> str:
+def _p_value(least: Finding) -> str:
     place = least.place
     at = (
         "in the whole picture"

@@ -35,9 +35,9 @@ def grade(
     says why. After an interruption the same command goes on where it stopped.
     """
     from course.school.grading.classes.grading import grade_class
-    from course.school.grading.classes.settings import Settings
+    from course.school.grading.classes.settings import GradingSettings
 
-    settings = Settings(seed, modules, submission_seconds=options.submission_seconds)
+    settings = GradingSettings(seed, modules, submission_seconds=options.submission_seconds)
     settings = settings.instead(options.policy, options.roster, options.title)
     with options.runner() as runner:
         result = grade_class(submissions, out, settings, runner)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
-PATIENCE = 0.2
+SHOWN_AFTER = 0.2
 """Seconds before a bar appears: rich takes 30 ms to import, and a flash tells nobody anything."""
 
 Report = Callable[[float, bool], None]
@@ -36,7 +36,7 @@ def progress_bar(label: str) -> Iterator[Report | None]:
 
 
 class _Bar:
-    """A bar that appears once the work has lasted for PATIENCE; it only pulses until a share is reported."""
+    """A bar that appears once the work has lasted for SHOWN_AFTER; it only pulses until a share is reported."""
 
     def __init__(self, label: str) -> None:
         self._label = label
@@ -45,7 +45,7 @@ class _Bar:
         self._closed = False
         self._lock = Lock()
         # In a thread of its own, since a scene may be read for many seconds without a report.
-        self._timer = Timer(PATIENCE, self._show)
+        self._timer = Timer(SHOWN_AFTER, self._show)
         self._timer.daemon = True
         self._timer.start()
 

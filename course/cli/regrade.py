@@ -14,7 +14,7 @@ from course.cli.tables import count
 
 if TYPE_CHECKING:
     from course.school.grading.checks.result import Result
-    from course.school.grading.classes.regrading import Change
+    from course.school.grading.classes.regrading import ScoreChange
     from course.school.grading.report import Report
 
 
@@ -55,7 +55,7 @@ def regrade(submissions: Path, out: Path, dry_run: bool, options: ClassOptions) 
         )
 
 
-def _tell(change: Change) -> None:
+def _tell(change: ScoreChange) -> None:
     click.echo(f"{change.student}: {_score(change.before)} -> {_score(change.after)}")
     for before, after in change.checks:
         one = after or before
@@ -63,7 +63,7 @@ def _tell(change: Change) -> None:
         click.echo(f"  {one.id}: {_ended(before)} -> {_ended(after)}")
 
 
-def _tell_all(changes: tuple[Change, ...], students: int, dry_run: bool) -> None:
+def _tell_all(changes: tuple[ScoreChange, ...], students: int, dry_run: bool) -> None:
     points = sum(
         change.after.points - (change.before.points if change.before else 0.0) for change in changes
     )

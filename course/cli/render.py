@@ -25,7 +25,7 @@ from course.engine.functions.effects import Effects
 
 if TYPE_CHECKING:
     from course.engine.render.picture import Picture
-    from course.engine.scene.scene import Settings
+    from course.engine.scene.scene import SceneSettings
 
 SAMPLERS = (
     *("sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift"),
@@ -209,7 +209,7 @@ def _render_one(
 
     began, ahead, here = monotonic(), ReadingAhead(), Path.cwd()
 
-    def described(settings: Settings) -> None:
+    def described(settings: SceneSettings) -> None:
         if reads_loops_first(settings, **choices):
             ahead.begin()
 

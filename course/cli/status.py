@@ -12,7 +12,7 @@ import click
 from course.cli.options import folder_option, modules_argument
 
 if TYPE_CHECKING:
-    from course.school.grading.progress import Progress
+    from course.school.grading.progress import FunctionProgress
 
 
 @click.command()
@@ -69,11 +69,11 @@ def _near(file: str) -> str:
     return str(path.relative_to(here) if path.is_relative_to(here) else path)
 
 
-def _state(function: Progress) -> str:
+def _state(function: FunctionProgress) -> str:
     return f"{function.state}: {function.title}" if function.title else function.state
 
 
-def _row(functions: list[Progress]) -> tuple[str, str, str, str]:
+def _row(functions: list[FunctionProgress]) -> tuple[str, str, str, str]:
     right = sum(one.state == "right" for one in functions)
     begun = any(one.state != "to do" for one in functions)
     wrong = sum(one.state == "wrong" for one in functions)
@@ -89,13 +89,13 @@ def _row(functions: list[Progress]) -> tuple[str, str, str, str]:
     return functions[0].module, state, f"{right} of {len(functions)}", _points(functions)
 
 
-def _points(functions: list[Progress]) -> str:
+def _points(functions: list[FunctionProgress]) -> str:
     from course.school.grading.report import as_points
 
     return f"{as_points(sum(o.points for o in functions))} of {as_points(sum(o.of for o in functions))}"
 
 
-def _total(functions: list[Progress]) -> str:
+def _total(functions: list[FunctionProgress]) -> str:
     right = sum(one.state == "right" for one in functions)
     return f"{right} of {len(functions)} functions are right, {_points(functions)} points"
 

@@ -117,11 +117,11 @@ class Room:
     def _gathered(self) -> tuple[Scene, Patches, list[Solved]]:
         """The scene in patches, and the light of these after each iteration."""
         from course import load_scene
-        from course.engine.radiosity.patches import Functions, make_patches
+        from course.engine.radiosity.patches import RadiosityFunctions, make_patches
         from course.engine.radiosity.radiosity import solve_patches
 
         scene = load_scene(pictures.scene_path(self.name))
-        patches, functions = make_patches(scene, GATHERED), Functions(scene.effects)
+        patches, functions = make_patches(scene, GATHERED), RadiosityFunctions(scene.effects)
         gather = functions.gather
         given: list[Any] = []
 

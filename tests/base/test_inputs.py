@@ -17,7 +17,7 @@ import pytest
 from course import load_scene
 from course.base import inputs
 from course.base.errors import CourseError
-from course.base.inputs import Bound, opened, read_arrays, read_input
+from course.base.inputs import InputLimit, opened, read_arrays, read_input
 from course.engine.formats.meshes.files import read_mesh
 from course.engine.formats.metu.reading import read_elements
 from course.engine.formats.pictures.reading import read_picture
@@ -182,15 +182,15 @@ def test_a_sparse_picture_with_a_right_beginning_is_refused_soon(
 def test_a_file_that_a_link_leads_to_is_read(tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"content")
     (tmp_path / "b").symlink_to("a")
-    assert read_input(tmp_path / "b", "file", Bound(7)) == b"content"
+    assert read_input(tmp_path / "b", "file", InputLimit(7)) == b"content"
 
 
 def test_a_bound_is_the_most_that_is_read_and_names_its_key(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.write_bytes(b"12345678")
-    assert read_input(path, "file", Bound(8)) == b"12345678"
+    assert read_input(path, "file", InputLimit(8)) == b"12345678"
     with pytest.raises(CourseError) as caught:
-        read_input(path, "mesh file", Bound(7, "limits.bytes"))
+        read_input(path, "mesh file", InputLimit(7, "limits.bytes"))
     assert str(caught.value) == (
         f"{path}: more than 7 bytes: too large for a mesh file; limits.bytes in the scene file allows more"
     )
@@ -211,7 +211,7 @@ def test_a_file_that_grows_while_it_is_read_is_refused(
 
     monkeypatch.setattr("course.base.inputs.opened", growing)
     with pytest.raises(CourseError, match="more than 7 bytes"):
-        read_input(path, "file", Bound(7))
+        read_input(path, "file", InputLimit(7))
 
 
 def test_descriptors_are_given_back(tmp_path: Path) -> None:
@@ -222,7 +222,7 @@ def test_descriptors_are_given_back(tmp_path: Path) -> None:
     for _ in range(5):
         for name in (tmp_path, Path("/dev/null"), tmp_path / "none"):
             with pytest.raises(CourseError):
-                read_input(name, "file", Bound(1))
+                read_input(name, "file", InputLimit(1))
     assert len(list(held.iterdir())) == before
 
 

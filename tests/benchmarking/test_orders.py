@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from course.benchmarking.curves import Order, fit_order
+from course.benchmarking.curves import ConvergenceOrder, fit_order
 
 SAMPLES = np.array([1, 4, 16, 64, 256, 1024], float)
 
@@ -75,7 +75,7 @@ def test_the_interval_holds_the_order_as_often_as_it_says(seeds: int) -> None:
     for _ in range(trials):
         noise = rng.chisquare(200, (len(SAMPLES), seeds)) / 200
         fitted = fit_order(SAMPLES, law(-0.7, seeds=seeds) * noise)
-        assert isinstance(fitted, Order)
+        assert isinstance(fitted, ConvergenceOrder)
         held += fitted.low <= -0.7 <= fitted.high
     assert held >= least
 

@@ -37,7 +37,7 @@ def _terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
     """
     shown = Terminal()
     monkeypatch.setattr(sys, "stderr", shown)
-    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(progress, "SHOWN_AFTER", 0.0)
     return shown
 
 
@@ -63,7 +63,7 @@ def test_a_bar_is_shown_before_the_first_report(monkeypatch: pytest.MonkeyPatch)
 def test_short_work_shows_no_bar(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(progress, "PATIENCE", 1e9)
+    monkeypatch.setattr(progress, "SHOWN_AFTER", 1e9)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     with progress.progress_bar("box") as report:
         assert report is not None

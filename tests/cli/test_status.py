@@ -11,7 +11,7 @@ import pytest
 from course.cli.main import commands
 from course.engine.functions.effects import PROJECT
 from course.school.grading import progress as told
-from course.school.grading.progress import KEPT, Progress, next_one
+from course.school.grading.progress import KEPT, FunctionProgress, next_one
 
 CliRunner = pytest.importorskip("click.testing").CliRunner
 
@@ -82,8 +82,8 @@ def test_only_what_has_changed_is_checked_again(
     assert len(checked) == 10
 
 
-def one(module: str, name: str, state: str) -> Progress:
-    return Progress(module, name, state, 0, 10, "", "", "", "", "", 1)
+def one(module: str, name: str, state: str) -> FunctionProgress:
+    return FunctionProgress(module, name, state, 0, 10, "", "", "", "", "", 1)
 
 
 def test_what_is_wrong_comes_first_then_what_is_begun_then_the_warm_up() -> None:

@@ -242,7 +242,7 @@ def test_a_function_that_does_not_end_is_given_up(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("matplotlib", reason='plots need: pip install -e ".[bench]"')
-    monkeypatch.setattr(figures, "PATIENCE", 0.0)
+    monkeypatch.setattr(figures, "DRAWN_WITHIN", 0.0)
     figure = Figure("sampling.disk_by_polar", "disk_spiral", 0)
     ((image, note),) = Studio().files([figure], tmp_path).values()
     assert note == "It does not end."

@@ -6,7 +6,7 @@ from benchmarks import path_tracing, radiosity
 from benchmarks.mitsuba_agreement import BLOCK
 from course import load_scene
 from course.engine.functions.effects import PROJECT
-from course.engine.radiosity.patches import Functions, make_patches
+from course.engine.radiosity.patches import RadiosityFunctions, make_patches
 from course.engine.radiosity.radiosity import PATCHES, TOLERANCE, solve
 from course.engine.radiosity.solving import GATHERED, gathered
 from course.engine.scene.scene import Scene
@@ -31,7 +31,7 @@ def test_light_that_iterations_miss(room: Scene, monkeypatch: pytest.MonkeyPatch
     assert value(patches) == GATHERED
     rows = {int(row[0]): row[1] for row in table("radiosity", "| iterations | missing |")}
     assert list(rows) == list(radiosity.ITERATIONS)
-    divided, functions = make_patches(room, GATHERED), Functions(room.effects)
+    divided, functions = make_patches(room, GATHERED), RadiosityFunctions(room.effects)
     (still,) = said("radiosity", "From iteration N on no bit of the float32 numbers changes")
     steps = gathered(divided, functions, 0.0, None, rays=2_000_000).steps
     assert steps <= value(still) < 1.2 * steps

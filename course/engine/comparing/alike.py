@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.comparing.noise import Noise, Part
-from course.engine.comparing.windows import Place
+from course.engine.comparing.noise import DifferenceNoise, Strip
+from course.engine.comparing.windows import Window
 from course.engine.core.types import Floats64, Mask
 
 FARTHEST = 64
@@ -46,7 +46,7 @@ class Likeness:
     left: float
 
 
-def likenesses(part: Part, noise: Noise) -> Iterator[Likeness]:
+def likenesses(part: Strip, noise: DifferenceNoise) -> Iterator[Likeness]:
     """All that there are, of a part that is not empty."""
     weight = part.usable[..., None] / noise.size
     height, width = part.usable.shape
@@ -74,14 +74,14 @@ def likenesses(part: Part, noise: Noise) -> Iterator[Likeness]:
     yield _blur(part, energy, whole)
 
 
-def _factors(part: Part, weight: Floats64) -> Floats64:
+def _factors(part: Strip, weight: Floats64) -> Floats64:
     """The mean of a over that of b, of each channel."""
     of_a, of_b = ((one * weight**2).sum(axis=(0, 1)) for one in (part.a, part.b))
     factors: Floats64 = np.divide(of_a, of_b, out=np.ones(3), where=of_b > 0)
     return factors
 
 
-def _blur(part: Part, energy: Callable[[Floats64, Floats64], float], whole: float) -> Likeness:
+def _blur(part: Strip, energy: Callable[[Floats64, Floats64], float], whole: float) -> Likeness:
     from scipy.ndimage import gaussian_filter
 
     found = []
@@ -93,7 +93,7 @@ def _blur(part: Part, energy: Callable[[Floats64, Floats64], float], whole: floa
     return Likeness(f"is {word} by about {_pixels(sigma)}", left / SHARED_BY_BLURRING)
 
 
-def movement(part: Part, weight: Floats64) -> tuple[float, float]:
+def movement(part: Strip, weight: Floats64) -> tuple[float, float]:
     """Pixels to the right and down by which a is moved against b: whole ones that fit best, then parts of one."""
     grey = [(one * weight).mean(axis=2) for one in (part.a, part.b)]
     spectra = [np.fft.rfft2(one - one.mean()) for one in grey]
@@ -167,6 +167,6 @@ def _percent(share: float) -> str:
     return f"{100 * share:.0f}%" if share >= 0.1 else f"{100 * share:.2g}%"
 
 
-def where(place: Place) -> str:
+def where(place: Window) -> str:
     """A place in words."""
     return f"in {place.width} x {place.height} pixels at ({place.left}, {place.top})"

@@ -21,7 +21,7 @@ from course.engine.comparing.one_sign import p_value as p_of_signs
 from course.engine.comparing.pair import Pair, pair_of
 from course.engine.comparing.patches import Even, evenest, largest_t
 from course.engine.comparing.spots import SHAPES, Spot, most_different_spot, standing_out, usual
-from course.engine.comparing.windows import Grid, Place, alike, largest_sums
+from course.engine.comparing.windows import Grid, Window, alike, largest_sums
 from course.engine.core.types import Floats32, Floats64, Mask
 
 SIGNIFICANCE = 1e-4
@@ -32,7 +32,7 @@ SPOT, SIGNS = "spot", "one sign"
 
 
 @dataclass(frozen=True)
-class Found:
+class Finding:
     """One kind of difference where it is most significant among places of one size.
 
     Attributes
@@ -46,7 +46,7 @@ class Found:
     kind: str
     p_value: float
     t: float
-    place: Place
+    place: Window
     whole: bool
 
 
@@ -66,7 +66,7 @@ class Comparison:
     level : of their noise
     """
 
-    found: tuple[Found, ...]
+    found: tuple[Finding, ...]
     mean_difference: tuple[float, float, float]
     mean: tuple[float, float, float]
     rmse: float
@@ -90,7 +90,7 @@ class Comparison:
         """Share of the pixels that were left out, for they or a neighbour are cut off at white."""
         return 1 - float(self.pair.usable.mean())
 
-    def least(self, *kinds: str) -> Found:
+    def least(self, *kinds: str) -> Finding:
         """The most significant of some kinds."""
         return next(one for one in self.found if one.kind in kinds)
 
@@ -134,20 +134,20 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
         *evenest(patches, 3 * pair.usable.size, level.inflation),
     ]
     height, width = pair.usable.shape
-    whole = Place(0, 0, width, height)
+    whole = Window(0, 0, width, height)
     # What is rare in few samples is missing in many pixels, all of one sign.
     p_signs = 1.0 if level.ratio else p_of_signs(np.concatenate(signs), level.inflation)
     # A third of the false alarms may be due to windows, to spots, and to cells of one sign.
     found = [
-        Found(SIGNS, min(1.0, 3 * p_signs), 0.0, whole, True),
+        Finding(SIGNS, min(1.0, 3 * p_signs), 0.0, whole, True),
         *(
-            Found(
+            Finding(
                 KINDS[one.field], min(1.0, 3 * len(sums) * one.p_value), one.t, one.place, one.whole
             )
             for one in sums
         ),
         *(
-            Found(SPOT, min(1.0, 3 * len(spots) * one.p_value), 0.0, one.place, False)
+            Finding(SPOT, min(1.0, 3 * len(spots) * one.p_value), 0.0, one.place, False)
             for one in spots
         ),
     ]
@@ -155,7 +155,7 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
     return _told(tuple(found), pair, level)
 
 
-def _told(found: tuple[Found, ...], pair: Pair, level: Level) -> Comparison:
+def _told(found: tuple[Finding, ...], pair: Pair, level: Level) -> Comparison:
     """With what else is told of the difference."""
     a, b = (one[pair.usable] for one in (pair.a, pair.b))
     d = a - b

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.comparing.noise import Noise, Part
+from course.engine.comparing.noise import DifferenceNoise, Strip
 from course.engine.comparing.windows import Field
 from course.engine.core.types import Floats64
 
@@ -37,7 +37,7 @@ class Slopes:
     laplacian: Floats64
 
 
-def slopes_of(mean: Floats64, noise: Noise) -> Slopes:
+def slopes_of(mean: Floats64, noise: DifferenceNoise) -> Slopes:
     """By the pixels around each, and not by itself."""
     padded = np.pad(mean, ((2, 2), (2, 2), (0, 0)), mode="edge")
 
@@ -61,7 +61,9 @@ def slopes_of(mean: Floats64, noise: Noise) -> Slopes:
     )
 
 
-def fields_of(part: Part, noise: Noise, rounding: Floats64, inflation: float) -> list[Field]:
+def fields_of(
+    part: Strip, noise: DifferenceNoise, rounding: Floats64, inflation: float
+) -> list[Field]:
     """Those of ``KINDS`` but the last two.
 
     ``rounding``: by what differences may be off (H, W, 3); ``inflation``: as `course.engine.comparing.noise.Level`
@@ -86,7 +88,7 @@ def fields_of(part: Part, noise: Noise, rounding: Floats64, inflation: float) ->
 
 
 def _field(
-    d: Floats64, weight: Floats64, noise: Noise, rounding: Floats64, channels: slice
+    d: Floats64, weight: Floats64, noise: DifferenceNoise, rounding: Floats64, channels: slice
 ) -> Field:
     weight = weight[..., channels]
     size = np.abs(weight)

@@ -37,7 +37,7 @@ SQUARE = 8
 
 
 @dataclass(frozen=True)
-class Part:
+class Strip:
     """Some rows of two pictures; (H, W, 3), and ``usable`` (H, W).
 
     ``d``: difference a - b of usable pixels, else 0
@@ -68,7 +68,7 @@ class Level:
 
 
 @dataclass(frozen=True)
-class Noise:
+class DifferenceNoise:
     """Of the difference of two pictures, (H, W, 3) each.
 
     Attributes
@@ -83,7 +83,7 @@ class Noise:
     known: Floats64
 
 
-def level_of(parts: Sequence[Part]) -> Level:
+def level_of(parts: Sequence[Strip]) -> Level:
     """By some parts of two pictures."""
     sizes = [_around(part)[part.usable] for part in parts]
     some = np.concatenate([size[size > 0] for size in sizes])
@@ -93,13 +93,13 @@ def level_of(parts: Sequence[Part]) -> Level:
     return Level(max(least, 1e-300), quieter, ratio, found)
 
 
-def noise_of(part: Part, level: Level) -> Noise:
+def noise_of(part: Strip, level: Level) -> DifferenceNoise:
     """Around each pixel of a part; those at its border lack neighbours."""
     known = np.zeros_like(part.d)
     if level.ratio:
         by_quieter = _of_one(_energies(part), level.quieter) * (1 + level.ratio)
         known = np.maximum(by_quieter, box(part.d**2, FARTHER, "mirror"))
-    return Noise(np.sqrt(_around(part) ** 2 + level.least**2), known)
+    return DifferenceNoise(np.sqrt(_around(part) ** 2 + level.least**2), known)
 
 
 def box(values: Floats64, side: int, beyond: str = "constant") -> Floats64:
@@ -122,14 +122,14 @@ def ring(values: Floats64, around: int = AROUND, own: int = OWN) -> Floats64:
     return mean
 
 
-def _around(part: Part) -> Floats64:
+def _around(part: Strip) -> Floats64:
     """Root-mean-square difference around each pixel (H, W, 3)."""
     count = np.maximum(ring(part.usable.astype(np.float64)), 1e-9)[..., None]
     size: Floats64 = np.sqrt(ring(part.d**2) / count)
     return size
 
 
-def _energies(part: Part) -> tuple[Floats64, ...]:
+def _energies(part: Strip) -> tuple[Floats64, ...]:
     """Mean squares of what is fine in a, b and a - b around each pixel, (H, W, 3) each."""
     weight = part.usable[..., None]
     return tuple(box(_fine(one) ** 2 * weight, AROUND) for one in (part.a, part.b, part.d))
@@ -145,7 +145,7 @@ def _of_one(energies: tuple[Floats64, ...], picture: int) -> Floats64:
     return of_one
 
 
-def _unequal(parts: Sequence[Part]) -> tuple[int, float]:
+def _unequal(parts: Sequence[Strip]) -> tuple[int, float]:
     """The quieter picture, and the ratio of the other's variance to its."""
     found = [_energies(part) for part in parts]
     energies = tuple(np.concatenate([one[k].ravel() for one in found]) for k in range(3))

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.base.errors import CourseError
-from course.engine.comparing.noise import Part, box
-from course.engine.comparing.windows import Grid, Place
+from course.engine.comparing.noise import Strip, box
+from course.engine.comparing.windows import Grid, Window
 from course.engine.core.types import Floats32, Floats64, Mask
 from course.engine.formats.pictures.display import linear_to_srgb8, srgb_to_linear
 
@@ -50,32 +50,32 @@ class Pair:
         """Whether both are as 8 bits show them."""
         return self.steps[0] is None
 
-    def part(self, place: Place) -> Part:
+    def part(self, place: Window) -> Strip:
         """What is in a place."""
         usable = self.usable[place.pixels]
         a, b = (one[place.pixels].astype(np.float64) for one in (self.a, self.b))
-        return Part(a, b, (a - b) * usable[..., None], usable)
+        return Strip(a, b, (a - b) * usable[..., None], usable)
 
-    def strips(self, grid: Grid) -> Iterator[tuple[Part, slice, slice]]:
+    def strips(self, grid: Grid) -> Iterator[tuple[Strip, slice, slice]]:
         """Parts of whole rows of cells, and what is around; their own rows among the part's, and the picture's."""
         height, width = self.usable.shape
         cells = max(STRIP // (width * grid.side), 1)
         for first in range(0, len(grid.rows) - 1, cells):
             top, bottom = grid.rows[[first, min(first + cells, len(grid.rows) - 1)]].tolist()
             upper, lower = max(top - AROUND, 0), min(bottom + AROUND, height)
-            part = self.part(Place(0, upper, width, lower - upper))
+            part = self.part(Window(0, upper, width, lower - upper))
             yield part, slice(top - upper, bottom - upper), slice(top, bottom)
 
-    def sample(self) -> list[Part]:
+    def sample(self) -> list[Strip]:
         """Strips across the picture that tell what noise is usual, or all of it."""
         height, width = self.usable.shape
         rows = 2 * AROUND
         if height <= SAMPLE * rows:
-            return [self.part(Place(0, 0, width, height))]
+            return [self.part(Window(0, 0, width, height))]
         tops = np.linspace(0, height - rows, SAMPLE).astype(int).tolist()
-        return [self.part(Place(0, top, width, rows)) for top in tops]
+        return [self.part(Window(0, top, width, rows)) for top in tops]
 
-    def rounding(self, part: Part) -> Floats64:
+    def rounding(self, part: Strip) -> Floats64:
         """By what differences of a part may be off, (H, W, 3)."""
         return rounded(part.a, self.steps[0]) + rounded(part.b, self.steps[1])
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.comparing.noise import Noise, Part, box, ring
-from course.engine.comparing.windows import Place
+from course.engine.comparing.noise import DifferenceNoise, Strip, box, ring
+from course.engine.comparing.windows import Window
 from course.engine.core.types import Floats64
 
 
@@ -33,11 +33,11 @@ class Even:
     """The patch of one size with the largest t; its p-value is corrected for the number of all."""
 
     p_value: float
-    place: Place
+    place: Window
 
 
 def largest_t(
-    part: Part, own: slice, noise: Noise, rounding: Floats64, least: float
+    part: Strip, own: slice, noise: DifferenceNoise, rounding: Floats64, least: float
 ) -> list[tuple[float, int, int]]:
     """Of the patches around pixels of some rows, for each of ``PATCHES``: t, the pixel's row in the part, its column.
 
@@ -73,4 +73,4 @@ def evenest(
         t /= np.sqrt(min(inflation, patch.side**2))
         p = min(1.0, count * 2 * float(stdtr(patch.side**2 - 1, -t)))
         corner = patch.side // 2
-        yield Even(p, Place(max(column - corner, 0), max(row - corner, 0), patch.side, patch.side))
+        yield Even(p, Window(max(column - corner, 0), max(row - corner, 0), patch.side, patch.side))

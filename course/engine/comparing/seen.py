@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.engine.comparing.alike import direction, likenesses, movement, of_channels, where
-from course.engine.comparing.comparison import SIGNS, SPOT, Comparison, Found
+from course.engine.comparing.comparison import SIGNS, SPOT, Comparison, Finding
 from course.engine.comparing.fields import COLOURS
 from course.engine.comparing.noise import noise_of
-from course.engine.comparing.windows import Place
+from course.engine.comparing.windows import Window
 from course.engine.core.types import Floats64
 
 EXPLAINED = 0.5
@@ -29,7 +29,7 @@ class Seen:
     """A sentence, and the place that it tells of; None for the whole picture."""
 
     text: str
-    place: Place | None
+    place: Window | None
 
     def __str__(self) -> str:
         return self.text
@@ -55,7 +55,7 @@ def seen(found: Comparison, significance: float) -> list[Seen]:
     return told
 
 
-def _cause(found: Comparison, first: Found) -> str | None:
+def _cause(found: Comparison, first: Finding) -> str | None:
     """What makes most of the difference, if it is one thing."""
     height, width = found.pair.usable.shape
     sides = min(height, WIDEST), min(width, WIDEST)
@@ -64,12 +64,12 @@ def _cause(found: Comparison, first: Found) -> str | None:
         min(max(at - side // 2, 0), size - side)
         for at, side, size in zip(middle, sides, (height, width), strict=True)
     )
-    part = found.pair.part(Place(left, top, sides[1], sides[0]))
+    part = found.pair.part(Window(left, top, sides[1], sides[0]))
     best = min(likenesses(part, noise_of(part, found.level)), key=lambda one: one.left)
     return best.text if best.left < EXPLAINED else None
 
 
-def _sentence(found: Comparison, one: Found) -> str:
+def _sentence(found: Comparison, one: Finding) -> str:
     at = "" if one.whole else f" {where(one.place)}"
     if one.kind == "blurred":
         return f"A is {'sharper' if one.t < 0 else 'blurrier'}{at}"
@@ -83,7 +83,7 @@ def _sentence(found: Comparison, one: Found) -> str:
     return f"A is {_brightness(part.d, part.b, one)}{at}"
 
 
-def _brightness(d: Floats64, b: Floats64, one: Found) -> str:
+def _brightness(d: Floats64, b: Floats64, one: Finding) -> str:
     means, of_b = d.mean(axis=(0, 1)), b.mean(axis=(0, 1))
     errors = d.std(axis=(0, 1)) / np.sqrt(d.shape[0] * d.shape[1])
     sure = np.abs(means) > SURE * errors

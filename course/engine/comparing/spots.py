@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.comparing.noise import Part, ring
-from course.engine.comparing.windows import Place
+from course.engine.comparing.noise import Strip, ring
+from course.engine.comparing.windows import Window
 from course.engine.core.types import Floats64
 
 TAIL, FEWEST = 32, 8
@@ -48,7 +48,7 @@ class Spot:
     """The one that stands out most; the p-value is corrected for the number of all."""
 
     p_value: float
-    place: Place
+    place: Window
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Usual:
     around: tuple[float, ...]
 
 
-def usual(parts: Sequence[Part]) -> Usual:
+def usual(parts: Sequence[Strip]) -> Usual:
     """By some parts of two pictures."""
     values = [one[part.usable] for part in parts for one in (part.a, part.b)]
     top = 2 * float(np.percentile(np.concatenate(values), BRIGHTEST))
@@ -70,7 +70,7 @@ def usual(parts: Sequence[Part]) -> Usual:
     return Usual(top, tuple(medians))
 
 
-def standing_out(part: Part, known: Usual) -> list[Floats64]:
+def standing_out(part: Strip, known: Usual) -> list[Floats64]:
     """How much the square at each pixel (H, W) stands out, for each shape: at least 0; in any channel."""
     d = _cut_off(part, known.top)
     found = []
@@ -81,7 +81,7 @@ def standing_out(part: Part, known: Usual) -> list[Floats64]:
     return found
 
 
-def _cut_off(part: Part, top: float) -> Floats64:
+def _cut_off(part: Strip, top: float) -> Floats64:
     """Differences (H, W, 3), of what isn't too bright."""
     d: Floats64 = (np.minimum(part.a, top) - np.minimum(part.b, top)) * part.usable[..., None]
     return d
@@ -93,18 +93,18 @@ def _around(d: Floats64, shape: Shape) -> Floats64:
 
 def most_different_spot(z: Floats64, shape: Shape) -> Spot:
     """By how much the squares at each pixel (H, W) stand out; they are lost."""
-    largest: list[tuple[float, Place]] = []
+    largest: list[tuple[float, Window]] = []
     apart = (shape.own + shape.side + 1) // 2 + 1
     for _ in range(TAIL + 1):
         row, column = map(int, np.unravel_index(int(z.argmax()), z.shape))
         if z[row, column] <= 0:
             break
         corner = shape.side // 2 if shape.side % 2 else 0
-        place = Place(max(column - corner, 0), max(row - corner, 0), shape.side, shape.side)
+        place = Window(max(column - corner, 0), max(row - corner, 0), shape.side, shape.side)
         largest.append((float(z[row, column]), place))
         z[max(row - apart, 0) : row + apart + 1, max(column - apart, 0) : column + apart + 1] = 0
     if len(largest) <= FEWEST:
-        return Spot(1.0, Place(0, 0, shape.side, shape.side))
+        return Spot(1.0, Window(0, 0, shape.side, shape.side))
     logs = np.log([size for size, _ in largest])
     spacings = np.arange(1, len(logs)) * (logs[:-1] - logs[1:])
     p = 1.0

@@ -30,7 +30,7 @@ BOUND = 3.178
 
 
 @dataclass(frozen=True)
-class Place:
+class Window:
     """A rectangle of pixels: column and row of its upper left one, its width and height."""
 
     left: int
@@ -43,7 +43,7 @@ class Place:
         """Index of its rows and columns."""
         return slice(self.top, self.top + self.height), slice(self.left, self.left + self.width)
 
-    def meets(self, other: "Place") -> bool:
+    def meets(self, other: "Window") -> bool:
         """Whether they share pixels."""
         return (
             self.left < other.left + other.width
@@ -119,12 +119,12 @@ class Windows:
         sums: Floats64 = rows[..., self.across[1]] - rows[..., self.across[0]]
         return sums
 
-    def place(self, number: int) -> Place:
+    def place(self, number: int) -> Window:
         """The pixels of a window by its number, row by row."""
         y, x = divmod(number, self.across.shape[1])
         top, bottom = self.grid.rows[self.down[:, y]].tolist()
         left, right = self.grid.columns[self.across[:, x]].tolist()
-        return Place(left, top, right - left, bottom - top)
+        return Window(left, top, right - left, bottom - top)
 
 
 def _starts(cells: int, side: int) -> Indices:
@@ -196,7 +196,7 @@ class Sum:
     field: int
     t: float
     p_value: float
-    place: Place
+    place: Window
     whole: bool
 
 

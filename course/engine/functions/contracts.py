@@ -21,7 +21,7 @@ Size = int | str | tuple[tuple[str, ...], int]
 
 
 @dataclass(frozen=True)
-class Result:
+class ResultContract:
     """One result.
 
     Attributes
@@ -66,7 +66,7 @@ class Contract:
     """
 
     arguments: tuple[tuple[str, str], ...]
-    results: tuple[Result, ...]
+    results: tuple[ResultContract, ...]
     several: bool
 
     def sizes(self, values: Iterable[Any]) -> dict[str, int]:
@@ -103,7 +103,7 @@ def parsed(text: str) -> Contract:
         below = next((word for word in words if word.startswith("below:")), "")
         said = {*DTYPES, "unit", "infinite", "*", below} & {*words}
         results.append(
-            Result(
+            ResultContract(
                 name.strip(),
                 " ".join(word for word in words if word not in said),
                 next((DTYPES[word] for word in words if word in DTYPES), None),

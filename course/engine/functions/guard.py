@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from course.base.errors import CourseError, CourseWarning, Ended, FunctionError
-from course.engine.functions.contracts import Contract, Result, contract
+from course.engine.functions.contracts import Contract, ResultContract, contract
 from course.engine.functions.signatures import CONTRACTS
 
 LONGEST_DEVIATION = 1e-3
@@ -80,7 +80,7 @@ class Guard:
         )
 
     def _list(
-        self, value: Any, known: dict[str, int], result: Result, arguments: tuple[Any, ...]
+        self, value: Any, known: dict[str, int], result: ResultContract, arguments: tuple[Any, ...]
     ) -> list[Any]:
         count = known["*"]
         if not isinstance(value, tuple | list | np.ndarray) or len(value) != count:
@@ -93,7 +93,7 @@ class Guard:
     def _array(
         self,
         value: Any,
-        result: Result,
+        result: ResultContract,
         known: dict[str, int],
         arguments: tuple[Any, ...],
         which: str = "",

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from course.engine.casters.choice import static_accelerator
 from course.engine.core.accelerator import QueryStats
 from course.engine.core.types import Floats32, Floats64, Indices
-from course.engine.radiosity.patches import Functions, Patches
+from course.engine.radiosity.patches import Patches, RadiosityFunctions
 
 RAYS = 1 << 16
 """In a batch."""
@@ -48,7 +48,7 @@ class Hemicube:
         return len(self.factors)
 
 
-def make_hemicube(k: int, functions: Functions) -> Hemicube:
+def make_hemicube(k: int, functions: RadiosityFunctions) -> Hemicube:
     """A hemicube of k cells along the edges of its top."""
     x = ((np.arange(k) + 0.5) * (2 / k) - 1).astype(np.float32)
     across, along = (part.ravel() for part in np.meshgrid(x, x))

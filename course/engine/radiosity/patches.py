@@ -25,12 +25,12 @@ from course.engine.scene.building.frame import Frame
 from course.engine.scene.building.lights import rectangle_mesh
 from course.engine.scene.building.materials import base_color
 from course.engine.scene.building.objects import object_mesh
-from course.engine.scene.building.triangles import Triangles
+from course.engine.scene.building.triangles import SharedTriangles
 from course.engine.scene.scene import Scene
 from course.engine.shapes.mesh import Mesh
 
 
-class Functions:
+class RadiosityFunctions:
     """The functions of the radiosity module by their names; each is looked up when it is first called."""
 
     def __init__(self, effects: Effects) -> None:
@@ -67,7 +67,7 @@ class Patches:
     two_sided : (T,) which triangles emit from their backs as well, None where none does
     """
 
-    triangles: Triangles
+    triangles: SharedTriangles
     reflectance: Floats32
     emission: Floats32
     surface: Indices

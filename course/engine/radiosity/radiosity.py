@@ -7,7 +7,7 @@ import numpy as np
 from course.engine.core.types import Mask
 from course.engine.radiosity.accepting import check_accepted
 from course.engine.radiosity.corners import at_corners
-from course.engine.radiosity.patches import Functions, Patches, make_patches
+from course.engine.radiosity.patches import Patches, RadiosityFunctions, make_patches
 from course.engine.radiosity.solving import GATHERED, Report, Shooting, Solved, gathered
 from course.engine.radiosity.viewing import Solution
 from course.engine.scene.building.materials import base_color
@@ -59,7 +59,7 @@ def solve(
     check_accepted(scene.loaded)
     if iterations is None:
         _check_absorbs(scene)
-    functions = Functions(scene.effects)
+    functions = RadiosityFunctions(scene.effects)
     divided = make_patches(scene, patches if split is None else max(patches // 4, 1))
     if split is not None:
         for left in range(ROUNDS, 0, -1):
@@ -89,7 +89,7 @@ def _check_absorbs(scene: Scene) -> None:
 
 def solve_patches(
     patches: Patches,
-    functions: Functions,
+    functions: RadiosityFunctions,
     tolerance: float,
     iterations: int | None,
     method: Method = "auto",
@@ -122,7 +122,7 @@ def as_solution(scene: Scene, patches: Patches, solved: Solved) -> Solution:
 
 
 def chosen_patches(
-    patches: Patches, solved: Solved, functions: Functions, split: float, room: int
+    patches: Patches, solved: Solved, functions: RadiosityFunctions, split: float, room: int
 ) -> Mask:
     """(T,) which triangles to divide, at most so many: where the light changes by more than split, or still more."""
     corners = at_corners(patches, solved.radiosity)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from course.base.errors import FunctionError
 from course.engine.core.types import Floats32, Floats64, Indices, Mask
 from course.engine.radiosity.hemicubes import Hemicube, Seen, Views, make_hemicube
-from course.engine.radiosity.patches import Functions, Patches
+from course.engine.radiosity.patches import Patches, RadiosityFunctions
 
 GATHERED = 1000
 """Triangles up to which all form factors are kept at once: 2000 x 2000 of them take 16 MB."""
@@ -64,7 +64,7 @@ class Solved:
 
 def gathered(
     patches: Patches,
-    functions: Functions,
+    functions: RadiosityFunctions,
     tolerance: float,
     most: int | None,
     report: Report | None = None,
@@ -140,7 +140,9 @@ class Shooting:
     lamp_rays : through the hemicubes by which lamps shoot what they emit
     """
 
-    def __init__(self, patches: Patches, functions: Functions, lamp_rays: int = LAMP_RAYS) -> None:
+    def __init__(
+        self, patches: Patches, functions: RadiosityFunctions, lamp_rays: int = LAMP_RAYS
+    ) -> None:
         self._functions = functions
         self._views = Views(patches)
         self._emission, self._reflectance, areas = _both_sides(patches)

@@ -27,7 +27,7 @@ ENVIRONMENT_LIGHT = "environment light"
 """What light from the environment is called that hits ask for."""
 
 
-class Table:
+class RecordTable:
     """Rows that are added in batches, column by column."""
 
     def __init__(self) -> None:
@@ -70,9 +70,9 @@ class Recorder:
     """
 
     def __init__(self) -> None:
-        self.rays, self.hits, self.brought = Table(), Table(), Table()
-        self.shadows, self.unlit, self.left_diffuse = Table(), Table(), Table()
-        self.drawn, self.calls = Table(), Table()
+        self.rays, self.hits, self.brought = RecordTable(), RecordTable(), RecordTable()
+        self.shadows, self.unlit, self.left_diffuse = RecordTable(), RecordTable(), RecordTable()
+        self.drawn, self.calls = RecordTable(), RecordTable()
         self.path: Indices = np.zeros(0, np.intp)
         self.ids: Indices = self.path
         self.stage = "building"

@@ -24,7 +24,7 @@ from course.engine.render.binding import bind
 from course.engine.render.job import chosen_settings
 from course.engine.render.not_written import lines_named
 from course.engine.scene.building.world import compile_scene
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 from course.engine.terms.samplers.sobol import SobolSampler
 
 MOST_SAMPLES = 16384
@@ -55,7 +55,7 @@ class Recording:
     """
 
     scene: Scene
-    settings: Settings
+    settings: SceneSettings
     area: Tile
     linear: Floats32
     radiance: Floats32
@@ -121,7 +121,12 @@ def record_each(scene: Scene, pixels: Iterable[tuple[int, int]]) -> list[Recordi
 
 
 def _recorded(
-    scene: Scene, settings: Settings, areas: Sequence[Tile], *, whole: bool, quick: bool = False
+    scene: Scene,
+    settings: SceneSettings,
+    areas: Sequence[Tile],
+    *,
+    whole: bool,
+    quick: bool = False,
 ) -> list[Recording]:
     """A recording of each area; with ``whole`` all tiles of the picture are rendered, in their order."""
     _check(areas, settings)
@@ -198,13 +203,13 @@ def recordable(scene: Scene) -> Scene:
 
 def _settings(
     scene: Scene, spp: int | None, size: tuple[int, int] | None, seed: int | None
-) -> Settings:
+) -> SceneSettings:
     width, height = size or (None, None)
     given = {"samples": spp, "width": width, "height": height, "seed": seed}
     return chosen_settings(scene.settings, False, **given)
 
 
-def _check(areas: Sequence[Tile], settings: Settings) -> None:
+def _check(areas: Sequence[Tile], settings: SceneSettings) -> None:
     if settings.subdivision is not None:
         raise CourseError(
             "this scene casts rays through the corners of pixels (film.subdivision), which share them: no pixel has"

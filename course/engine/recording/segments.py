@@ -9,7 +9,7 @@ import numpy as np
 
 from course.engine.core.types import Floats32, Floats64, Numbers
 from course.engine.formats.yaml import description as d
-from course.engine.recording.recorder import ENVIRONMENT_LIGHT, Recorder, Table
+from course.engine.recording.recorder import ENVIRONMENT_LIGHT, Recorder, RecordTable
 from course.engine.scene.building.materials import material_columns
 from course.engine.scene.scene import Scene
 
@@ -289,7 +289,7 @@ class _Reading:
         ]
 
 
-def _grouped(table: Table) -> dict[int, list[dict[str, Any]]]:
+def _grouped(table: RecordTable) -> dict[int, list[dict[str, Any]]]:
     rows: dict[int, list[dict[str, Any]]] = defaultdict(list)
     for row in table.rows():
         rows[int(row["id"])].append(row)

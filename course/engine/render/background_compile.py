@@ -25,7 +25,7 @@ from course.engine.core.tracer import Tracer
 from course.engine.functions.effects import PROJECT, Effects, NothingWritten
 from course.engine.functions.modules import COURSE
 from course.engine.render.threads import Pool
-from course.engine.scene.scene import Scene, Settings, load_scene
+from course.engine.scene.scene import Scene, SceneSettings, load_scene
 
 LAST = 10
 """Added to the niceness of the process that compiles: the picture comes first."""
@@ -163,7 +163,7 @@ class BackgroundCompiler:
         pool: Pool,
         compiled: Callable[[], Tracer],
         scene: Scene,
-        settings: Settings,
+        settings: SceneSettings,
         tried_to_read: bool = False,
     ) -> None:
         self._pool, self._compiled = pool, compiled
@@ -216,7 +216,7 @@ class BackgroundCompiler:
             self._thread.join()
 
 
-def _task(scene: Scene, settings: Settings) -> tuple[Any, ...]:
+def _task(scene: Scene, settings: SceneSettings) -> tuple[Any, ...]:
     effects = scene.effects
     if effects.trusted:
         return scene.path.resolve(), effects.folder.resolve(), settings, ()
@@ -225,7 +225,7 @@ def _task(scene: Scene, settings: Settings) -> tuple[Any, ...]:
     return _task_of_a_student(scene, settings)
 
 
-def _task_of_a_student(scene: Scene, settings: Settings) -> tuple[Any, ...]:
+def _task_of_a_student(scene: Scene, settings: SceneSettings) -> tuple[Any, ...]:
     """On a small picture, with functions that aren't known in the place of a student's."""
     width, height = LITTLE
     little = replace(settings, width=width, height=height, samples=4, subdivision=None)
@@ -239,12 +239,12 @@ def _task_of_a_student(scene: Scene, settings: Settings) -> tuple[Any, ...]:
     return scene.path.resolve(), None, little, unknown
 
 
-def compile_loops(scene: Scene, settings: Settings) -> None:
+def compile_loops(scene: Scene, settings: SceneSettings) -> None:
     """Have a process compile what a render has not found on disk; nobody waits for it."""
     _started(_task(scene, settings))
 
 
-def compile_for_a_student(scene: Scene, settings: Settings) -> None:
+def compile_for_a_student(scene: Scene, settings: SceneSettings) -> None:
     """Have a process compile the loops that a scene has with a student's functions; nobody waits for it."""
     _started(_task_of_a_student(scene, settings))
 

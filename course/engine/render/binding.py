@@ -11,7 +11,7 @@ from course.engine.formats.yaml import description as d
 from course.engine.functions.effects import Bound, Need
 from course.engine.render.adaptive.costs import RowOfCosts
 from course.engine.scene.building.cameras import compile_camera
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 from course.engine.terms.paths.path_tracing import PathIntegrator
 from course.engine.terms.plan import plan
 from course.engine.terms.samplers import FUNCTIONS, make_sampler
@@ -22,7 +22,7 @@ NARROWEST = 1e-6
 
 
 def bind(
-    scene: Scene, settings: Settings, bound: Bound | None = None, compiled: bool = False
+    scene: Scene, settings: SceneSettings, bound: Bound | None = None, compiled: bool = False
 ) -> Tracer:
     """Bind a scene to its settings and to the functions that place and weigh its samples.
 
@@ -69,7 +69,7 @@ def bind(
     return engine.compiled(tracer)
 
 
-def _reconstruction(scene: Scene, settings: Settings, bound: Bound) -> Reconstruction:
+def _reconstruction(scene: Scene, settings: SceneSettings, bound: Bound) -> Reconstruction:
     film, functions = scene.loaded.description.film, {}
     for name, asked_by, called in (
         ("resolve", ("sampler", "samples"), settings.samples > 1),
@@ -96,14 +96,14 @@ def developed_by(scene: Scene) -> dict[str, str]:
     return found
 
 
-def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
+def needs_of(scene: Scene, settings: SceneSettings) -> tuple[Need, ...]:
     """Every function that rendering with these settings calls, and what asks for it."""
     bound = Bound(scene.effects, scene.compiled.needs)
     bind(scene, settings, bound)
     if settings.subdivision is not None:
         from course.engine.render.adaptive import subdivision
 
-        subdivision.Functions(bound, settings.subdivision)
+        subdivision.SubdivisionFunctions(bound, settings.subdivision)
     if settings.denoise is not None:
         from course.engine.terms import denoising
 

@@ -8,14 +8,14 @@ from course.engine.core.types import Indices
 from course.engine.formats.pictures.display import heat_map
 from course.engine.formats.pictures.files import save
 from course.engine.scene.building.cameras import compile_camera
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 from course.engine.terms.surfaces.hierarchy import HierarchyAccelerator
 
 BATCH = 16384
 """Rays that are asked at once."""
 
 
-def box_tests(scene: Scene, settings: Settings) -> Indices:
+def box_tests(scene: Scene, settings: SceneSettings) -> Indices:
     """Number of boxes that each camera ray was tested with, (H, W).
 
     Lens and motion are left out: a ray a pixel, from the middle of the lens when the shutter opens.
@@ -38,7 +38,7 @@ def box_tests(scene: Scene, settings: Settings) -> Indices:
     return tests.reshape(height, width)
 
 
-def save_box_tests(scene: Scene, settings: Settings, path: Path) -> None:
+def save_box_tests(scene: Scene, settings: SceneSettings, path: Path) -> None:
     """Write them as a picture: black the fewest, white the most, logarithmic between.
 
     Raises OutputError when the file can't be written; then there is no such file.

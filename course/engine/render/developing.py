@@ -15,7 +15,7 @@ from course.engine.formats.pictures.display import BRIGHTEST, ROUNDING, Display,
 from course.engine.functions.effects import Bound
 from course.engine.render.binding import developed_by
 from course.engine.render.not_written import lines_named
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 
 _WHITE = (0.3127, 0.3290)
 GAMUTS = {
@@ -26,7 +26,7 @@ GAMUTS = {
 """Chromaticities x and y of red, green, blue and white: IEC 61966-2-1, SMPTE EG 432-1, ITU-R BT.2020."""
 
 
-def developing(scene: Scene, settings: Settings, bound: Bound) -> Display:
+def developing(scene: Scene, settings: SceneSettings, bound: Bound) -> Display:
     """The display of a scene's pictures; functions that it calls are noted down, and tried on one black pixel.
 
     Raises EffectError, FunctionError and what `lines_named` makes readable: a function is not written, or wrong.

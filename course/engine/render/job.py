@@ -11,7 +11,7 @@ from course.engine.core.tracer import Tracer
 from course.engine.formats.yaml.consistency import nearest_squares
 from course.engine.functions.effects import Bound
 from course.engine.render.picture import Picture
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 
 EXTENSIBLE = ("sobol", "random", "halton", "xorshift")
 """Samplers that can go on for as long as there is time, with so many samples at most."""
@@ -35,7 +35,7 @@ class Job:
     """
 
     scene: Scene
-    settings: Settings
+    settings: SceneSettings
     time_limit: float | None = None
     start: Picture | None = None
     compiled: bool = False
@@ -59,7 +59,7 @@ class Mode:
     final: str | None = None
 
 
-def chosen_settings(settings: Settings, ends_early: bool, **given: Any) -> Settings:
+def chosen_settings(settings: SceneSettings, ends_early: bool, **given: Any) -> SceneSettings:
     """The settings, with what was given and isn't None in their place; CourseError for what can't be.
 
     ``ends_early``: something else than the number of samples is to end the render.
@@ -83,7 +83,7 @@ def chosen_settings(settings: Settings, ends_early: bool, **given: Any) -> Setti
     return chosen
 
 
-def check_memory(settings: Settings, bytes_a_pixel: int) -> None:
+def check_memory(settings: SceneSettings, bytes_a_pixel: int) -> None:
     """Raise OutputError for a picture that is larger than the memory that is free."""
     needed = settings.width * settings.height * bytes_a_pixel
     if needed < 256e6:

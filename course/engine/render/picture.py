@@ -8,7 +8,7 @@ import numpy as np
 from course.engine.core.film import AnyFilm
 from course.engine.core.types import Floats32
 from course.engine.render.receipt import Receipt
-from course.engine.scene.scene import Settings
+from course.engine.scene.scene import SceneSettings
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Picture:
     """
 
     film: AnyFilm
-    settings: Settings
+    settings: SceneSettings
     receipt: Receipt
     complete: bool
     interrupted: bool = False

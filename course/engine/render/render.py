@@ -29,7 +29,7 @@ from course.engine.render.which_loops import (
     read_first,
     wants_compiled,
 )
-from course.engine.scene.scene import Denoising, Scene, Settings
+from course.engine.scene.scene import Denoising, Scene, SceneSettings
 
 
 def render(
@@ -135,7 +135,7 @@ def _check(job: Job, mode: Mode, threads: int | None, address: str | None) -> No
 
 
 def _asked(
-    settings: Settings,
+    settings: SceneSettings,
     spp: int | None,
     size: tuple[int, int] | None,
     sampler: str | None,
@@ -144,7 +144,7 @@ def _asked(
     denoise: bool | None,
     *,
     ends_early: bool,
-) -> Settings:
+) -> SceneSettings:
     """The settings of a render; what isn't given is as the scene says. See ``render``."""
     width, height = size or (None, None)
     settings = chosen_settings(
@@ -164,7 +164,7 @@ def _asked(
 
 
 def reads_loops_first(
-    settings: Settings,
+    settings: SceneSettings,
     *,
     spp: int | None = None,
     size: tuple[int, int] | None = None,
@@ -189,7 +189,7 @@ def reads_loops_first(
     return later and read_first(settings, time_limit)
 
 
-def _mode(settings: Settings, time_limit: float | None) -> Mode:
+def _mode(settings: SceneSettings, time_limit: float | None) -> Mode:
     """The mode that settings ask for; its module is imported then."""
     if settings.denoise is not None:
         from course.engine.render.denoised import DENOISED
@@ -206,7 +206,7 @@ def _mode(settings: Settings, time_limit: float | None) -> Mode:
     return UNIFORM if time_limit is None else TIMED
 
 
-def _check_start(*settings: Settings) -> None:
+def _check_start(*settings: SceneSettings) -> None:
     """Raise CourseError if one of two renders, the earlier or the one to continue it, is in a mode that can't go on."""
     for each in settings:
         if (picture := _mode(each, None).final) is not None:

@@ -16,7 +16,7 @@ from course.engine.loops.engine import compiled, has_loops
 from course.engine.loops.library import available
 from course.engine.render.binding import bind
 from course.engine.render.threads import Pool
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 
 WORTH_COMPILED = 5_000_000
 """Camera rays from which on compiled loops save more than Numba takes to get ready."""
@@ -52,7 +52,7 @@ class Loops:
     take_over: Callable[[Pool], Closing] | None = None
 
 
-def wants_compiled(settings: Settings, wanted: bool | None) -> bool:
+def wants_compiled(settings: SceneSettings, wanted: bool | None) -> bool:
     """Whether Numba's loops are used where a scene has them; ``wanted`` None means where that pays.
 
     Raises CourseError where they are wanted and can't be had.
@@ -70,7 +70,7 @@ def wants_compiled(settings: Settings, wanted: bool | None) -> bool:
     return available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
 
 
-def may_change_over(settings: Settings) -> bool:
+def may_change_over(settings: SceneSettings) -> bool:
     """True if NumPy may begin and compiled loops go on.
 
     Corners of cells are no pieces of work: their tracer is compiled before they begin.
@@ -78,7 +78,7 @@ def may_change_over(settings: Settings) -> bool:
     return settings.subdivision is None
 
 
-def read_first(settings: Settings, time_limit: float | None) -> bool:
+def read_first(settings: SceneSettings, time_limit: float | None) -> bool:
     """True if the render will surely take longer than loops take to be read, so that NumPy needn't begin."""
     if "numba" in sys.modules:
         return True
@@ -91,7 +91,7 @@ def read_first(settings: Settings, time_limit: float | None) -> bool:
 
 def choose_loops(
     scene: Scene,
-    settings: Settings,
+    settings: SceneSettings,
     bound: Bound,
     wanted: bool | None,
     time_limit: float | None,
@@ -131,6 +131,8 @@ def choose_loops(
     return Loops(tracer, False, take_over)
 
 
-def loops_of_cluster(scene: Scene, settings: Settings, bound: Bound, wanted: bool | None) -> Loops:
+def loops_of_cluster(
+    scene: Scene, settings: SceneSettings, bound: Bound, wanted: bool | None
+) -> Loops:
     """The same where workers of a cluster follow the rays: with compiled loops where film is, if they have them."""
     return Loops(bind(scene, settings, bound), film=wants_compiled(settings, wanted))

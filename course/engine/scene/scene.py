@@ -21,7 +21,7 @@ Denoising = DenoiseDescription
 
 
 @dataclass(frozen=True)
-class Settings(core.Settings):
+class SceneSettings(core.Settings):
     """Render settings of a scene.
 
     Attributes
@@ -64,15 +64,15 @@ class Scene:
         return self.loaded.description.title or self.loaded.path.stem
 
     @property
-    def settings(self) -> Settings:
+    def settings(self) -> SceneSettings:
         """Render settings of the file."""
         return settings_of(self.loaded)
 
 
-def settings_of(loaded: Loaded) -> Settings:
+def settings_of(loaded: Loaded) -> SceneSettings:
     """Render settings of a scene file."""
     scene = loaded.description
-    return Settings(
+    return SceneSettings(
         width=scene.film.width,
         height=scene.film.height,
         sampler=scene.sampler.type,
@@ -87,7 +87,7 @@ def settings_of(loaded: Loaded) -> Settings:
     )
 
 
-Described = Callable[[Settings], None]
+Described = Callable[[SceneSettings], None]
 """Called with the settings of a scene that is being loaded."""
 
 

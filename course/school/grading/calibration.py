@@ -15,7 +15,7 @@ from course.base.version import __version__
 from course.school.grading.catalog import module_checks
 from course.school.grading.checks.check import Caller, Check, ModuleChecks
 from course.school.grading.checks.running import run_checks
-from course.school.grading.known import Known, known, trusted
+from course.school.grading.known import KnownSubmission, known, trusted
 from course.school.grading.pictures.judging import ssim
 from course.school.grading.pictures.whole import ALL, NAME, Together
 from course.school.grading.references import prepared, reference
@@ -67,7 +67,9 @@ def write_tolerances(found: dict[str, dict[str, Any]], seeds: int, path: Path) -
     write_rows(path, head | {"checks": found}, depth=2)
 
 
-def _calibrated(module: str, check: Check, submissions: list[Known], seeds: int) -> dict[str, Any]:
+def _calibrated(
+    module: str, check: Check, submissions: list[KnownSubmission], seeds: int
+) -> dict[str, Any]:
     right = 1.0
     wrong: dict[str, float] = {}
     references = {seed: prepared(reference(module), seed)(module, check) for seed in range(seeds)}

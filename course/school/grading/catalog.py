@@ -85,13 +85,13 @@ def _check(function: Function, law: Law) -> Check:
 
 def _speed(function: Function, trial: Trial) -> None:
     a = function.make(Draw(trial.rng, function.speed, np.float32))
-    if trial.yardstick is None:
+    if trial.reference_caller is None:
         # Nothing to compare with; but what gives no value has not passed.
         trial.call(*a.values())
         return
     times: tuple[list[float], list[float]] = ([], [])
     for _ in range(ROUNDS):
-        for caller, kept in zip((trial.caller, trial.yardstick), times, strict=True):
+        for caller, kept in zip((trial.caller, trial.reference_caller), times, strict=True):
             started = perf_counter()
             caller.call(function.name, *a.values())
             kept.append(perf_counter() - started)

@@ -13,7 +13,7 @@ from course.base.version import __version__
 from course.engine.functions.modules import COURSE
 from course.school.grading.catalog import module_checks, with_whole
 from course.school.grading.checks.check import Caller, Check, ModuleChecks, References
-from course.school.grading.checks.lending import Lenders
+from course.school.grading.checks.lending import Substitutes
 from course.school.grading.checks.result import Result, Status, cleaned, troubled
 from course.school.grading.checks.running import run_checks
 from course.school.grading.errors import StudentError
@@ -22,7 +22,7 @@ from course.school.grading.references import SOLUTIONS, reference
 from course.school.grading.report import Report
 from course.school.grading.submissions import why_absent
 from course.school.grading.worker.client import Worker
-from course.school.grading.worker.limits import Budget, Limits, Patience
+from course.school.grading.worker.limits import Limits, TimeBudget, WorkerBudget
 from course.school.grading.worker.sandbox import Sandbox, sandbox
 
 
@@ -56,19 +56,19 @@ def grade(
     results: list[Result] = []
     printed: dict[str, str] = {}
     chosen = tuple(modules)
-    budget = Budget(limits)
+    budget = WorkerBudget(limits)
     # Of some checks alone the first may be a large one.
-    patience = {module: Patience(limits.call_seconds, only is None) for module in chosen}
+    time_budget = {module: TimeBudget(limits.call_seconds, only is None) for module in chosen}
 
-    yardsticks: dict[str, Worker] = {}
+    reference_callers: dict[str, Worker] = {}
 
     def worker(module: str, **more: Any) -> Worker:
-        source, shared = sources.get(module, b""), patience[module]
-        found = Worker(module, source, limits, shut_in, patience=shared, budget=budget, **more)
-        found.yardstick = yardsticks.get(module)
+        source, shared = sources.get(module, b""), time_budget[module]
+        found = Worker(module, source, limits, shut_in, time_budget=shared, budget=budget, **more)
+        found.reference_caller = reference_callers.get(module)
         return found
 
-    def right(module: str, budget: Budget | None = None) -> Worker:
+    def right(module: str, budget: WorkerBudget | None = None) -> Worker:
         return Worker(module, _solution(module).read_bytes(), limits, shut_in, budget=budget)
 
     def tell(result: Result) -> None:
@@ -97,23 +97,30 @@ def grade(
             needed = ALL if module == NAME else (module,)
             standard = partial(reference, module) if all(map(_is_solved, needed)) else None
             with (
-                right(module) if _is_solved(module) else nullcontext() as yardstick,
-                _lenders(module, worker, partial(right, module, budget)) as lenders,
+                right(module) if _is_solved(module) else nullcontext() as reference_caller,
+                _substitutes(module, worker, partial(right, module, budget)) as substitutes,
             ):
-                if own is not None and yardstick is not None:
-                    own.yardstick = yardsticks[module] = yardstick
+                if own is not None and reference_caller is not None:
+                    own.reference_caller = reference_callers[module] = reference_caller
                 for result in (
                     _unusable(checks, error, only)
                     if error is not None
                     else run_checks(
-                        checks, caller, references, seed, only, yardstick, lenders, standard
+                        checks,
+                        caller,
+                        references,
+                        seed,
+                        only,
+                        reference_caller,
+                        substitutes,
+                        standard,
                     )
                 ):
                     tell(result)
             if own is not None:
                 # No module's code goes on while another's is checked; the picture of all starts it again.
                 own.close()
-                own.yardstick = None
+                own.reference_caller = None
                 printed |= {module: clean(own.printed)} if own.printed else {}
     return Report(
         student,
@@ -127,9 +134,9 @@ def grade(
 
 
 @contextmanager
-def _lenders(
+def _substitutes(
     module: str, worker: Callable[..., Worker], right: Callable[[], Worker]
-) -> Iterator[Lenders]:
+) -> Iterator[Substitutes]:
     """The student's module again, for each function with the reference's in place of those before it.
 
     Only the latest is there: its processes end when another function is asked for, and at the end of the context.
@@ -149,7 +156,7 @@ def _lenders(
         if function not in latest:
             close()
             # What is lent is worked out where it can hold up or fill up nobody but the one who asks for it.
-            latest[function] = worker(module, lender=right(), lent=before)
+            latest[function] = worker(module, substitute=right(), lent=before)
         return latest[function]
 
     try:

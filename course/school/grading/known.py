@@ -28,7 +28,7 @@ from course.school.grading.checks.trusted import TrustedModule
 
 
 @dataclass(frozen=True)
-class Known:
+class KnownSubmission:
     """One known submission of one module.
 
     Attributes
@@ -52,7 +52,7 @@ class Known:
     says: str = ""
 
 
-def trusted(submission: Known) -> TrustedModule:
+def trusted(submission: KnownSubmission) -> TrustedModule:
     """A known submission's functions, in this process."""
     module = ModuleType(submission.name)
     exec(
@@ -62,7 +62,7 @@ def trusted(submission: Known) -> TrustedModule:
     return TrustedModule({name: getattr(module, name) for name in COURSE[submission.module]})
 
 
-def known(module: str, folder: Path = PROJECT / "solutions") -> list[Known]:
+def known(module: str, folder: Path = PROJECT / "solutions") -> list[KnownSubmission]:
     """A module's known submissions, the right ones first; ``CourseError`` where one lacks what it must say."""
     solution = (folder / f"{module}.py").read_text(encoding="utf-8")
     right, wrong = (
@@ -93,7 +93,7 @@ class _Edited(Struct, forbid_unknown_fields=True):
     also: str = ""
 
 
-def _edited(path: Path, module: str, solution: str) -> list[Known]:
+def _edited(path: Path, module: str, solution: str) -> list[KnownSubmission]:
     """The submissions of a module that are its solution with lines changed."""
     # Marks of what is left out in stubs stand between lines that belong together.
     plain = [line for line in solution.split("\n") if not line.lstrip().startswith("###")]
@@ -114,7 +114,7 @@ def _edited(path: Path, module: str, solution: str) -> list[Known]:
                     raise CourseError(f"{path}: {function}.{name}: {error}") from error
             source = "\n".join([*lines, each.also])
             told = function, each.caught_by, each.mistake, each.says
-            found.append(Known(module, name, False, each.about, source, *told))
+            found.append(KnownSubmission(module, name, False, each.about, source, *told))
     return found
 
 
@@ -145,7 +145,7 @@ def _changed(lines: list[str], edit: _Edit, function: str) -> list[str]:
     return [*lines[:start], *(indent(line, margin) for line in now), *lines[start + len(was) :]]
 
 
-def _read(path: Path, module: str, solution: str, *, right: bool) -> Known:
+def _read(path: Path, module: str, solution: str, *, right: bool) -> KnownSubmission:
     text = path.read_text(encoding="utf-8")
     tree = ast.parse(text)
     about = (ast.get_docstring(tree) or "").partition("\n")[0]
@@ -164,4 +164,4 @@ def _read(path: Path, module: str, solution: str, *, right: bool) -> Known:
         raise CourseError(f"{path}: needs FUNCTION, CAUGHT_BY and MISTAKE")
     told = ("FUNCTION", "CAUGHT_BY", "MISTAKE", "SAYS")
     what = ["" if right else str(constants.get(name) or "") for name in told]
-    return Known(module, path.stem, right, about, source, *what)
+    return KnownSubmission(module, path.stem, right, about, source, *what)

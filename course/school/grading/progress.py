@@ -26,7 +26,7 @@ KEPT = Path(".course", "checked.json")
 
 
 @dataclass(frozen=True)
-class Progress:
+class FunctionProgress:
     """How far one function is.
 
     Attributes
@@ -57,7 +57,7 @@ def progress(
     folder: Path,
     modules: Iterable[str] = tuple(COURSE),
     before: Callable[[str], None] = lambda _module: None,
-) -> Iterator[list[Progress]]:
+) -> Iterator[list[FunctionProgress]]:
     """The functions of one module after the other.
 
     Raises SubmissionError: a file can't be read.
@@ -80,12 +80,12 @@ def progress(
             _write(folder / KEPT, kept)
         path = paths.get(module, folder / f"{module}.py")
         yield [
-            Progress(**function, file=str(path), line=line_of(path, function["name"]))
+            FunctionProgress(**function, file=str(path), line=line_of(path, function["name"]))
             for function in known["functions"]
         ]
 
 
-def next_one(functions: list[Progress]) -> Progress | None:
+def next_one(functions: list[FunctionProgress]) -> FunctionProgress | None:
     """What is wrong first, then what is to do in a module that somebody has begun, then in the others."""
     begun = {function.module for function in functions if function.state != "to do"}
     order = ("wrong", "to do", "undecided")
@@ -165,6 +165,6 @@ def _write(path: Path, modules: dict[str, Any]) -> None:
         return
 
 
-def as_data(functions: Iterable[Progress]) -> list[dict[str, Any]]:
+def as_data(functions: Iterable[FunctionProgress]) -> list[dict[str, Any]]:
     """Plain data."""
     return [asdict(function) for function in functions]

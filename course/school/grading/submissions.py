@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from course.base.errors import CourseError
-from course.base.inputs import Bound, opened
+from course.base.inputs import InputLimit, opened
 from course.engine.functions.effects import misnamed
 from course.engine.functions.modules import COURSE
 from course.school.grading.errors import StudentError
@@ -18,7 +18,7 @@ from course.school.grading.errors import StudentError
 LARGEST_FILE = 2_000_000
 """Bytes of one file that are read; the worker refuses less than that, with a message of its own."""
 
-ANY_SIZE = Bound(1 << 63)
+ANY_SIZE = InputLimit(1 << 63)
 """Files of any size are opened, for only their beginning is read."""
 
 

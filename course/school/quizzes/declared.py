@@ -11,7 +11,7 @@ import msgspec
 
 from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT
-from course.school.grading.known import Known, known
+from course.school.grading.known import KnownSubmission, known
 
 RIGHT = "right"
 """Among the answers: the right function."""
@@ -56,7 +56,7 @@ class Asked:
     module: str
     name: str
     declared: Declared
-    wrong: dict[str, Known]
+    wrong: dict[str, KnownSubmission]
     says: dict[str, str]
 
     @property

@@ -6,7 +6,7 @@ LETTERS = "ABCDE"
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownPicture:
     """A picture of a question.
 
     Attributes
@@ -48,7 +48,7 @@ class Question:
     module: str
     function: str
     asks: tuple[str, ...]
-    shown: tuple[Shown, ...]
+    shown: tuple[ShownPicture, ...]
     choices: tuple[Choice, ...]
     answer: int
     explained: str

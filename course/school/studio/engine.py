@@ -15,7 +15,7 @@ from course.engine.functions.effects import Effects
 from course.engine.functions.own import EngineForm
 from course.engine.render.background_compile import tried
 from course.engine.render.binding import bind
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 from course.school.studio.passes import Progressive, may_compile
 
 ENGINE = "engine"
@@ -67,7 +67,7 @@ _FILM: dict[str, Callable[..., Any]] = {
 """The film calls these for all samples of a pass at once, outside of the loops."""
 
 
-def engines_picture(scene: Scene, settings: Settings) -> Progressive:
+def engines_picture(scene: Scene, settings: SceneSettings) -> Progressive:
     """A picture without a sample yet, by Sobol's points; CourseError if the loops don't know all that the scene has."""
     if settings.subdivision is None and may_compile():
         from course.engine.loops.fits import fits

@@ -23,7 +23,7 @@ from course.engine.render.not_written import lines_named
 from course.engine.render.render import render
 from course.engine.render.threads import Pool, default_threads
 from course.engine.render.which_loops import NO_COMPILER
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 
 STAGES = (1, 16, 64, 256)
 """Samples of the pictures before the last, where a sampler places all samples at once."""
@@ -78,7 +78,7 @@ class Progressive:
     tracer : of the first pass
     """
 
-    def __init__(self, scene: Scene, settings: Settings, compiled: bool = False) -> None:
+    def __init__(self, scene: Scene, settings: SceneSettings, compiled: bool = False) -> None:
         self._scene, self._settings = scene, replace(settings, error=None)
         self._compiled = compiled
         self._bound = Bound(scene.effects, scene.compiled.needs)
@@ -180,7 +180,7 @@ class Whole:
     It has the attributes and the method of ``Progressive``.
     """
 
-    def __init__(self, scene: Scene, settings: Settings) -> None:
+    def __init__(self, scene: Scene, settings: SceneSettings) -> None:
         self._scene, self._settings = scene, settings
         self.film = Film(settings.width, settings.height)
         self.samples, self.seconds = 0, 0.0
@@ -202,7 +202,9 @@ class Whole:
         tell(self.film, self.samples, True)
 
 
-def picture_of(scene: Scene, settings: Settings, compiled: bool = False) -> Progressive | Whole:
+def picture_of(
+    scene: Scene, settings: SceneSettings, compiled: bool = False
+) -> Progressive | Whole:
     """A picture without a sample yet."""
     if settings.subdivision is not None:
         return Whole(scene, settings)

@@ -10,7 +10,7 @@ from course.engine.formats.yaml.loading import load_description
 from course.engine.functions.effects import Bound, Effects
 from course.engine.scene.building.cameras import compile_lens
 from course.engine.scene.building.world import compile_scene
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 
 AT_ONCE = (
     ("camera", "eye"),
@@ -57,7 +57,7 @@ def prepared(path: Path, values: Values, effects: Effects) -> Scene:
     return Scene(loaded, compile_scene(loaded, effects), effects)
 
 
-def settings_of(scene: Scene) -> Settings:
+def settings_of(scene: Scene) -> SceneSettings:
     """Settings of the studio's pictures."""
     settings = scene.settings
     width, height = fitting(settings.width, settings.height)

@@ -41,7 +41,7 @@ from course.engine.render.background_compile import (
 from course.engine.render.binding import developed_by, needs_of
 from course.engine.render.developing import developing
 from course.engine.render.not_written import lines_named
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 from course.school.studio.engine import ENGINE, NO_REFERENCE, EngineEffects, engines_picture
 from course.school.studio.late import StudioEffects
 from course.school.studio.messages import Channel, messages
@@ -243,7 +243,7 @@ class Program:
         picture.render(upto, tell)
         self.channel.send({"rendered": job, "samples": picture.samples})
 
-    def _developing(self, settings: Settings) -> Display:
+    def _developing(self, settings: SceneSettings) -> Display:
         """How the picture is shown, by functions of `film` where the scene asks for them."""
         if self._folder == ENGINE and developed_by(self.scene):
             raise CourseError(NO_REFERENCE)

@@ -9,12 +9,12 @@ from typing import Any
 from course.engine.render.background_compile import LAST
 from course.school.studio.differing import Shot
 from course.school.studio.engine import ENGINE
-from course.school.studio.worker import Event, Worker
+from course.school.studio.worker import Event, RenderWorker
 
 SILENT = 2.0
 """Seconds without a sign of life from which on it is told."""
 
-PATIENCE = 10.0
+ANSWER_WITHIN = 10.0
 """Seconds that one call may last, or a process may be silent, before it is ended."""
 
 
@@ -43,8 +43,8 @@ class Side:
     effects: str | None
     late: bool
     event: Event
-    worker: Worker | None = None
-    spare: Worker | None = None
+    worker: RenderWorker | None = None
+    spare: RenderWorker | None = None
     spare_knows: Any = None
     spare_ready: bool = False
     job: int = 0
@@ -78,7 +78,7 @@ class Side:
         if self.worker is None:
             # Where the engine's loops have to be compiled, one's own picture comes first.
             nice = LAST if self.effects == ENGINE else 0
-            self.worker, self.spare = self.spare or Worker(self.event, nice), None
+            self.worker, self.spare = self.spare or RenderWorker(self.event, nice), None
             built = self.spare_ready and self.spare_knows == knows
             if self.spare_knows != knows:
                 self.worker.send(do="scene", **self.command(file, values))
@@ -108,7 +108,7 @@ class Side:
         if not self.late or self.spare_knows == knows:
             return
         if self.spare is None:
-            self.spare = Worker(self.event)
+            self.spare = RenderWorker(self.event)
         self.spare.send(do="scene", **self.command(file, values))
         self.spare_knows, self.spare_ready = knows, False
 

@@ -24,7 +24,7 @@ from course.engine.formats.yaml.document import KeyPath
 from course.engine.formats.yaml.loading import load_description
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.functions.modules import COURSE
-from course.school.grading.progress import Progress, next_one
+from course.school.grading.progress import FunctionProgress, next_one
 from course.school.studio.checker import Checker
 from course.school.studio.differing import Shot, coloured, deviations, rms, share_differing
 from course.school.studio.engine import ENGINE, NO_RAYS
@@ -32,8 +32,8 @@ from course.school.studio.keys import Slider, sliders
 from course.school.studio.late import IMPORTING
 from course.school.studio.orbit import orbited, within_limits
 from course.school.studio.prepared import fitting
-from course.school.studio.sides import PATIENCE, SILENT, Side
-from course.school.studio.worker import Worker
+from course.school.studio.sides import ANSWER_WITHIN, SILENT, Side
+from course.school.studio.worker import RenderWorker
 
 POLL = 0.04
 """Seconds between two looks at the files."""
@@ -188,7 +188,7 @@ class Studio:
 
     # ---------------------------------------------------------------- the thread
 
-    def _event(self, worker: Worker, told: dict[str, Any], arrays: list[Any]) -> None:
+    def _event(self, worker: RenderWorker, told: dict[str, Any], arrays: list[Any]) -> None:
         self._queue.put(("worker", worker, told, arrays))
 
     def _run(self) -> None:
@@ -310,7 +310,7 @@ class Studio:
         values = [[list(path), value] for path, value in self.values.items()]
         self.mine.keep_spare(str(self.scene), values)
 
-    def _on_worker(self, worker: Worker, told: dict[str, Any], arrays: list[Any]) -> None:
+    def _on_worker(self, worker: RenderWorker, told: dict[str, Any], arrays: list[Any]) -> None:
         side = next((s for s in self.sides if worker in (s.worker, s.spare)), None)
         if side is None:
             return
@@ -402,8 +402,8 @@ class Studio:
                 else f"{name} has been running for"
             )
             side.note = f"{doing} {seconds:.0f} s{at}"
-            if seconds > PATIENCE and side.worker is not None:
-                side.worker.end(f"no answer within {PATIENCE:.0f} s{at}")
+            if seconds > ANSWER_WITHIN and side.worker is not None:
+                side.worker.end(f"no answer within {ANSWER_WITHIN:.0f} s{at}")
         if side.note != before:
             if bool(side.note) != bool(before):
                 self._go()
@@ -478,8 +478,8 @@ class Studio:
             silent = monotonic() - side.heard
             if side.goal and side.ready and silent > SILENT and side.worker is not None:
                 note = f"no sign of life for {silent:.0f} s"
-                if silent > PATIENCE:
-                    side.worker.end(f"no sign of life for {PATIENCE:.0f} s")
+                if silent > ANSWER_WITHIN:
+                    side.worker.end(f"no sign of life for {ANSWER_WITHIN:.0f} s")
                 if note != side.note:
                     side.note = note
                     self._say_state()
@@ -569,7 +569,7 @@ class Studio:
         called = {need.partition(".")[0] for need in self._needs}
         waiting = {*self._to_check, *self._under_check}
         modules = []
-        every: list[Progress] = []
+        every: list[FunctionProgress] = []
         for module in self._modules() if self.mine is not None else []:
             known, here = self._functions.get(module, {}), module in called or module == self.module
             functions = known.get("functions")
@@ -588,7 +588,7 @@ class Studio:
                     for name in COURSE[module]
                 ]
             else:
-                every += [Progress(**each) for each in functions]
+                every += [FunctionProgress(**each) for each in functions]
             modules.append(
                 {
                     "name": module,

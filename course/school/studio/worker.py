@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import IO, Any
 
 from course.base.processes import environment_apart
-from course.school.grading.worker.limits import Budget, Limits, end_tree
+from course.school.grading.worker.limits import Limits, WorkerBudget, end_tree
 from course.school.studio.messages import Channel, messages
 
 PROGRAM = "course.school.studio.program"
@@ -26,11 +26,11 @@ SHOWN = 4000
 MEMORY = 4 << 30
 """Bytes that one process may hold."""
 
-Event = Callable[["Worker", dict[str, Any], list[Any]], None]
+Event = Callable[["RenderWorker", dict[str, Any], list[Any]], None]
 """Called by threads of the worker's own with what it tells; {"ended": why} comes last."""
 
 
-class Worker:
+class RenderWorker:
     """A process that renders.
 
     Parameters
@@ -57,7 +57,7 @@ class Worker:
                 os.setpriority(os.PRIO_PROCESS, self._process.pid, nice)
         assert self._process.stdin is not None
         self._channel = Channel(self._process.stdin)
-        self._budget = Budget(Limits(memory=MEMORY))
+        self._budget = WorkerBudget(Limits(memory=MEMORY))
         self._budget.watch(self._process.pid, self.end)
         self._threads = [
             threading.Thread(target=work, daemon=True) for work in (self._listen, self._drain)

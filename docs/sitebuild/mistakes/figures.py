@@ -31,7 +31,7 @@ KEPT = PROJECT / "out" / "docs" / "mistakes"
 HERE = Path(__file__).parent
 GRADING = PACKAGE / "school" / "grading"
 
-PATIENCE = 120.0
+DRAWN_WITHIN = 120.0
 """Seconds after which a function is taken never to end."""
 
 PROCESSES = 2
@@ -145,11 +145,11 @@ class Studio:
         waiting = [(f, self._pool.apply_async(_drawn, (f, *paths[f]))) for f in paths]
         for figure, outcome in waiting:
             try:
-                outcome.get(PATIENCE)
+                outcome.get(DRAWN_WITHIN)
             except Late:
                 self.close()
                 if not figure.name:
-                    late = f"{figure.function}: no picture in {PATIENCE:g} s"
+                    late = f"{figure.function}: no picture in {DRAWN_WITHIN:g} s"
                     raise CourseError(late) from None
                 _write(_lost("does not end"), "It does not end.", *paths[figure])
                 return

@@ -7,7 +7,7 @@ from typing import Any
 
 from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT
-from course.school.grading.known import Known, known
+from course.school.grading.known import KnownSubmission, known
 
 Function = Callable[..., Any]
 
@@ -17,7 +17,7 @@ def solution(module: str) -> str:
     return (PROJECT / "solutions" / f"{module}.py").read_text(encoding="utf-8")
 
 
-def submission(function: str, name: str) -> Known:
+def submission(function: str, name: str) -> KnownSubmission:
     """Find a known wrong submission of MODULE.FUNCTION.
 
     Raises
@@ -35,7 +35,7 @@ def submission(function: str, name: str) -> Known:
 
 
 @lru_cache
-def _all_of(module: str) -> list[Known]:
+def _all_of(module: str) -> list[KnownSubmission]:
     return known(module)
 
 

@@ -13,7 +13,7 @@ from PIL import Image
 from course.base.errors import CourseError
 from course.school.grading.checks.declare import declared_function
 from course.school.quizzes.declared import RIGHT, Asked
-from course.school.quizzes.question import LETTERS, Choice, Question, Shown
+from course.school.quizzes.question import LETTERS, Choice, Question, ShownPicture
 from sitebuild.mistakes.catalog import look, look_at
 from sitebuild.mistakes.figures import STUDIO, Figure
 from sitebuild.quiz.apart import Difference, Trials, described, difference
@@ -133,7 +133,7 @@ def question(plan: Plan, images: Images) -> Question:
         for place, name in enumerate(plan.order)
     )
     shown = tuple(
-        Shown(title, alternative(plan, name, title, images), _png(images[plan.figure(name)]))
+        ShownPicture(title, alternative(plan, name, title, images), _png(images[plan.figure(name)]))
         for title, name in titles(plan)
     )
     answer = plan.order.index(asked.declared.mistake)

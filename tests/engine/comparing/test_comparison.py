@@ -14,7 +14,7 @@ from course.base.errors import CourseError
 from course.engine.comparing.comparison import SPOT, Comparison, compare
 from course.engine.comparing.fields import COLOURS
 from course.engine.comparing.pair import FLOAT_STEP, HALF_STEP
-from course.engine.comparing.windows import Grid, Place
+from course.engine.comparing.windows import Grid, Window
 from course.engine.formats.pictures.display import linear_to_srgb8, srgb_to_linear
 
 Array = NDArray[np.float64]
@@ -154,7 +154,7 @@ def test_what_differs_in_one_place_is_found_there() -> None:
     found = compare(a, b)
     assert found.p_value < 1e-6
     least = found.found[0]
-    assert (least.kind, least.place) == ("green", Place(16, 32, 16, 16))
+    assert (least.kind, least.place) == ("green", Window(16, 32, 16, 16))
     assert least.t < 0
 
 
@@ -164,7 +164,7 @@ def test_what_fills_a_part_of_a_block_is_found(place: int, size: int) -> None:
     b[place : place + size, place : place + size] += 1
     found = compare(a, b)
     assert found.p_value < 2e-5
-    assert found.found[0].place.meets(Place(place, place, size, size))
+    assert found.found[0].place.meets(Window(place, place, size, size))
 
 
 def test_swapping_the_pictures_turns_the_signs() -> None:
@@ -223,7 +223,7 @@ def test_every_pixel_is_in_a_window_of_each_size(shape: tuple[int, int]) -> None
             assert one == pytest.approx(values[place.pixels].sum())
             seen[place.pixels] = True
         assert seen.all()
-    assert place == Place(0, 0, shape[1], shape[0])
+    assert place == Window(0, 0, shape[1], shape[0])
 
 
 @pytest.mark.parametrize("shape", [(17, 60), (15, 500), (1, 1), (16, 16)])
@@ -267,7 +267,7 @@ def test_a_spot_of_three_pixels_stands_out_most(noise: Noise) -> None:
     found = compare(a, b)
     assert found.p_value < 1e-2
     assert found.found[0].kind == SPOT
-    assert found.found[0].place.meets(Place(33, 20, 1, 1))
+    assert found.found[0].place.meets(Window(33, 20, 1, 1))
 
 
 @pytest.mark.parametrize("noise", KINDS)

@@ -13,7 +13,7 @@ from scipy.ndimage import gaussian_filter
 
 from course.engine.comparing.comparison import SIGNIFICANCE, Comparison, compare
 from course.engine.comparing.seen import seen
-from course.engine.comparing.windows import Place
+from course.engine.comparing.windows import Window
 
 Array = NDArray[np.float64]
 HEIGHT, WIDTH, SEEDS = 96, 128, 20
@@ -86,14 +86,16 @@ def test_a_picture_that_was_blurred_with_its_noise_is_found(truth: Array) -> Non
         assert_all_found([found], "A is sharper")
 
 
-Change = Callable[[Array, np.random.Generator], Place]
+Change = Callable[[Array, np.random.Generator], Window]
 
 
 def square(side: int, sigmas: float, channels: slice = slice(None)) -> Change:
     """Anywhere in a picture."""
 
-    def change(picture: Array, rng: np.random.Generator) -> Place:
-        place = Place(int(rng.integers(WIDTH - side)), int(rng.integers(HEIGHT - side)), side, side)
+    def change(picture: Array, rng: np.random.Generator) -> Window:
+        place = Window(
+            int(rng.integers(WIDTH - side)), int(rng.integers(HEIGHT - side)), side, side
+        )
         picture[(*place.pixels, channels)] += sigmas * SIGMA
         return place
 
@@ -139,7 +141,7 @@ def test_two_percent_in_a_square_are_told(truth: Array) -> None:
     for one in compared(picture, truth, 0.005):
         first = seen(one, SIGNIFICANCE)[0]
         assert first.place is not None
-        assert first.place.meets(Place(30, 20, 40, 40))
+        assert first.place.meets(Window(30, 20, 40, 40))
         assert 1.0 < float(first.text.split("by ")[1].split("%")[0]) < 3.0
 
 

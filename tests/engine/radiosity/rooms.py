@@ -7,10 +7,10 @@ import numpy as np
 
 from course.engine import shapes
 from course.engine.functions.effects import PROJECT, Effects
-from course.engine.radiosity.patches import Functions, Patches
+from course.engine.radiosity.patches import Patches, RadiosityFunctions
 from course.engine.scene.building.cutting import undivided
 
-FUNCTIONS = Functions(Effects(PROJECT / "solutions"))
+FUNCTIONS = RadiosityFunctions(Effects(PROJECT / "solutions"))
 
 CAMERA = {"eye": [0, 0.5, 5], "look_at": [0, 0.5, 0]}
 

@@ -12,7 +12,7 @@ from course.engine.core.types import Floats32
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.radiosity.corners import at_corners
 from course.engine.radiosity.hemicubes import Views, make_hemicube
-from course.engine.radiosity.patches import Functions, Patches, make_patches
+from course.engine.radiosity.patches import Patches, RadiosityFunctions, make_patches
 from course.engine.radiosity.radiosity import chosen_patches, solve, solve_patches
 from course.engine.radiosity.solving import Shooting, Solved, form_factors, gathered, with_ambient
 from course.engine.scene.scene import load_scene
@@ -274,7 +274,7 @@ def test_a_white_room_has_no_limit_to_go_to(make_scene: MakeScene) -> None:
     assert solve(scene, patches=20, iterations=3, method="shoot").steps.tolist() == [3]
 
 
-class _Endless(Functions):
+class _Endless(RadiosityFunctions):
     """Functions that never come to an end."""
 
     def gather(self, radiosity: Floats32, *_: Floats32) -> Floats32:
@@ -322,7 +322,7 @@ def test_light_that_there_cannot_be_ends_gathering_at_once(
 ) -> None:
     """Of negated radiosities NumPy had warned that none was left to take the mean of."""
 
-    class Wrong(Functions):
+    class Wrong(RadiosityFunctions):
         calls = 0
 
         def gather(self, *arguments: Floats32) -> Floats32:

@@ -11,14 +11,14 @@ from course.engine.core.rays import RAYS
 from course.engine.core.tiles import PASS, Work
 from course.engine.functions.effects import PROJECT
 from course.engine.render.threads import InOrder
-from course.engine.scene.scene import Settings
+from course.engine.scene.scene import SceneSettings
 from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.work import SHARES, divided_passes
 
 WIDTH, HEIGHT, SAMPLES = 1000, 800, 64
 
 
-def settings(samples: int = SAMPLES) -> Settings:
+def settings(samples: int = SAMPLES) -> SceneSettings:
     scene = load_scene(PROJECT / "scenes" / "path_tracing.yaml")
     return replace(scene.settings, width=WIDTH, height=HEIGHT, samples=samples)
 

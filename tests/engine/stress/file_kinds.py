@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from course import load_scene
-from course.base.inputs import Bound
+from course.base.inputs import InputLimit
 from course.engine.formats.meshes.files import read_mesh
 from course.engine.formats.metu.converting import convert
 from course.engine.formats.pictures.reading import read_picture
@@ -275,7 +275,7 @@ def _webp() -> bytes:
 
 
 def _read_picture(path: Path) -> object:
-    return read_picture(path, pixels=Bound(MOST_PIXELS))
+    return read_picture(path, pixels=InputLimit(MOST_PIXELS))
 
 
 def _png_inside(content: bytes, change: Change) -> bytes:

@@ -11,7 +11,7 @@ from course.school.grading.catalog import module_checks
 from course.school.grading.checks.check import ModuleChecks, References
 from course.school.grading.checks.result import Status
 from course.school.grading.checks.running import run_checks
-from course.school.grading.known import Known, known
+from course.school.grading.known import KnownSubmission, known
 
 SHOWN = {
     ("sampling", "bias"): {
@@ -26,7 +26,7 @@ SHOWN = {
 }
 
 
-def statuses(submission: Known, kind: str, references: References) -> dict[str, Status]:
+def statuses(submission: KnownSubmission, kind: str, references: References) -> dict[str, Status]:
     """By function, of the checks of a kind; for a wrong submission of its wrong function alone."""
     module = submission.module
     checks = [
@@ -43,7 +43,7 @@ RIGHT = [submission for submission in known("sampling") if submission.right]
 
 
 @pytest.mark.parametrize("submission", RIGHT, ids=[k.name for k in RIGHT])
-def test_right_ones_pass(submission: Known, usual_references: References) -> None:
+def test_right_ones_pass(submission: KnownSubmission, usual_references: References) -> None:
     found = statuses(submission, "bias", usual_references)
     assert found
     assert set(found.values()) == {Status.PASSED}, found

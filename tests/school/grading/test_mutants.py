@@ -17,7 +17,7 @@ from course.school.grading.calibration import trusted
 from course.school.grading.catalog import module_checks
 from course.school.grading.checks.check import Check, References
 from course.school.grading.checks.result import Result, Status
-from course.school.grading.known import Known, known
+from course.school.grading.known import KnownSubmission, known
 from course.school.grading.references import reference
 
 ALL = [submission for module in COURSE for submission in known(module)]
@@ -50,7 +50,7 @@ def first_properties(module: str) -> set[tuple[str, str]]:
     return {(function, name) for function, names in found.items() for name in names}
 
 
-def concerned(submission: Known) -> Callable[[Check], bool]:
+def concerned(submission: KnownSubmission) -> Callable[[Check], bool]:
     """All checks for a right submission; for a wrong one the check meant for it, after one that calls the function.
 
     Some mistakes are made from the second call on.
@@ -69,7 +69,9 @@ def concerned(submission: Known) -> Callable[[Check], bool]:
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("submission", TRIED, ids=[f"{k.module}-{k.name}" for k in TRIED])
-def test_the_grader_says_what_it_should(submission: Known, usual_references: References) -> None:
+def test_the_grader_says_what_it_should(
+    submission: KnownSubmission, usual_references: References
+) -> None:
     only = concerned(submission)
     verdict = judge(submission, trusted(submission), usual_references, 0, only)
     assert not verdict.fault, "\n".join(matrix([verdict]))

@@ -9,7 +9,7 @@ from html.parser import HTMLParser
 import pytest
 
 from course.school.quizzes.packing import canvas, marked, moodle, prairielearn, qti21
-from course.school.quizzes.question import LETTERS, Choice, Question, Shown
+from course.school.quizzes.question import LETTERS, Choice, Question, ShownPicture
 
 PNG = b"\x89PNG\r\n\x1a\n" + bytes(range(256))
 
@@ -20,7 +20,10 @@ def asked(number: int, module: str = "film", choices: int = 4) -> Question:
         module,
         "expose",
         ("`film.expose` as it should be & with a <mistake>.", 'Which "one"?'),
-        (Shown("Right", "A curve.", PNG), Shown("With a mistake", "Another < curve.", PNG[::-1])),
+        (
+            ShownPicture("Right", "A curve.", PNG),
+            ShownPicture("With a mistake", "Another < curve.", PNG[::-1]),
+        ),
         tuple(
             Choice(f"Mistake `{letter}` & 1 < 2", f"Not {letter}.") for letter in LETTERS[:choices]
         ),

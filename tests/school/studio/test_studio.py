@@ -12,7 +12,7 @@ import pytest
 from course.school.studio import sides
 from course.school.studio import studio as whole_studio
 from course.school.studio.studio import MOST, Studio
-from course.school.studio.worker import Worker
+from course.school.studio.worker import RenderWorker
 from tests.school.studio.conftest import RIGHT, WRONG, until, write
 
 DONE = 16
@@ -305,12 +305,12 @@ def test_saves_in_quick_succession_start_few_processes_and_the_last_one_counts(
     until(lambda: studio.mine is not None and studio.mine.spare_ready)
     started: list[float] = []
 
-    class Counted(Worker):
+    class Counted(RenderWorker):
         def __init__(self, *arguments: Any) -> None:
             started.append(time.monotonic())
             super().__init__(*arguments)
 
-    monkeypatch.setattr(sides, "Worker", Counted)
+    monkeypatch.setattr(sides, "RenderWorker", Counted)
     saves = 40
     for n in range(saves):
         # Every other one can't be imported: an editor saves what is half written.
@@ -397,7 +397,7 @@ def test_saves_share_a_process_until_it_reads_them(monkeypatch: pytest.MonkeyPat
         def end(self, _why: str) -> None:
             pass
 
-    monkeypatch.setattr(sides, "Worker", Told)
+    monkeypatch.setattr(sides, "RenderWorker", Told)
     side = sides.Side("mine", "mine", True, lambda *_: None)
     for _ in range(3):
         side.start("ball.yaml", [], True)

@@ -7,7 +7,7 @@ from pathlib import Path
 from urllib.parse import unquote, unquote_to_bytes, urlsplit
 
 from course.base.errors import GeometryError
-from course.base.inputs import Bound, read_input
+from course.base.inputs import InputLimit, read_input
 
 
 @dataclass(frozen=True)
@@ -15,7 +15,7 @@ class Beside:
     """The folder of a mesh file, and the most bytes that a file may have."""
 
     folder: Path
-    bound: Bound
+    bound: InputLimit
 
     def read(self, uri: str) -> bytes:
         """Content of what a relative URI names, in the folder or below it, or that a data URI holds.

@@ -1,4 +1,4 @@
-"""From a `Part`, as it stands in a file, to a mesh that can be used: finite, in range, with normals."""
+"""From a `FilePart`, as it stands in a file, to a mesh that can be used: finite, in range, with normals."""
 
 import warnings
 from typing import Literal
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from course.base.errors import CourseWarning, GeometryError
 from course.engine.core.types import Floats64
-from course.engine.formats.meshes.parts import Part
+from course.engine.formats.meshes.parts import FilePart
 from course.engine.formats.meshes.smooth_normals import (
     angle_normals,
     area_normals,
@@ -34,7 +34,7 @@ Weights = Literal["angle", "area"]
 """By what the faces around a vertex count in its normal."""
 
 
-def checked(name: str, part: Part, weights: Weights) -> Mesh:
+def checked(name: str, part: FilePart, weights: Weights) -> Mesh:
     """Return the mesh of `part`, in its own frame; GeometryError for what can't be used."""
     vertices = np.array(part.vertices, np.float64)
     if vertices.ndim != 2 or vertices.shape[1] != 3:
@@ -69,7 +69,7 @@ def checked(name: str, part: Part, weights: Weights) -> Mesh:
 
 
 def _computed(
-    part: Part, vertices: Floats64, triangles: NDArray[np.integer], weights: Weights
+    part: FilePart, vertices: Floats64, triangles: NDArray[np.integer], weights: Weights
 ) -> Floats64:
     """The normals (V, 3) that the file doesn't have."""
     if part.shared is None:
@@ -92,7 +92,9 @@ def _used(mesh: Mesh) -> Mesh:
     return Mesh(mesh.vertices[used], number[mesh.triangles], normals, uv)
 
 
-def _normals(name: str, part: Part, count: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+def _normals(
+    name: str, part: FilePart, count: int
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return the file's normals (V, 3), made unit or 0, and (V, 1) which vertices have one."""
     if part.normals is None:
         return np.zeros((count, 3)), np.zeros((count, 1), bool)
@@ -149,7 +151,7 @@ def _outwards(
     return np.where(wrong[:, None], triangles[:, [0, 2, 1]], triangles)
 
 
-def _uv(name: str, part: Part, count: int) -> NDArray[np.float64] | None:
+def _uv(name: str, part: FilePart, count: int) -> NDArray[np.float64] | None:
     if part.uv is None:
         return None
     uv = np.array(part.uv, np.float64)

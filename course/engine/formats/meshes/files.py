@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from course.base.atomic import replacing
 from course.base.errors import CourseWarning, GeometryError
-from course.base.inputs import LARGEST_DATA, Bound, read_input, shown
+from course.base.inputs import LARGEST_DATA, InputLimit, read_input, shown
 from course.engine.core.types import Mask
 from course.engine.formats.meshes.beside import Beside
 from course.engine.formats.meshes.checked import Weights, checked
 from course.engine.formats.meshes.gltf import parse_glb, parse_gltf
-from course.engine.formats.meshes.named import Named
+from course.engine.formats.meshes.named import NamedMesh
 from course.engine.formats.meshes.obj import parse_obj
-from course.engine.formats.meshes.parts import Part, same
+from course.engine.formats.meshes.parts import FilePart, same
 from course.engine.formats.meshes.ply import parse_ply
 from course.engine.formats.meshes.smooth_normals import angle_normals
 from course.engine.formats.meshes.stl import parse_stl
@@ -29,7 +29,7 @@ from course.engine.formats.meshes.transforms import apply_all
 from course.engine.shapes.grid import join
 from course.engine.shapes.mesh import Mesh
 
-FORMATS: Final[dict[str, Callable[[bytes, Beside], list[Part]]]] = {
+FORMATS: Final[dict[str, Callable[[bytes, Beside], list[FilePart]]]] = {
     ".ply": lambda data, _: parse_ply(data),
     ".obj": lambda data, _: parse_obj(data),
     ".stl": lambda data, _: parse_stl(data),
@@ -38,10 +38,10 @@ FORMATS: Final[dict[str, Callable[[bytes, Beside], list[Part]]]] = {
 }
 
 
-USUAL = Bound(LARGEST_DATA)
+USUAL = InputLimit(LARGEST_DATA)
 
 
-def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> Mesh:
+def read_mesh(path: Path, weights: Weights = "angle", bound: InputLimit = USUAL) -> Mesh:
     """Read a mesh file; several geometries in it become one mesh, in the file's own frame.
 
     Normals and uv are the file's where it has them. Without normals, triangles that share a vertex
@@ -65,7 +65,7 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
     return read_named_mesh(path, weights, bound).mesh
 
 
-def read_named_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> Named:
+def read_named_mesh(path: Path, weights: Weights = "angle", bound: InputLimit = USUAL) -> NamedMesh:
     """As `read_mesh`, with the names of materials that OBJ and GLB files give to faces."""
     path = Path(path)
     parse = FORMATS.get(path.suffix.lower())
@@ -110,10 +110,10 @@ def read_named_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL
         meshes = [mesh if mesh.normals is not None else _parted(mesh) for mesh in meshes]
     mesh = join(meshes)
     mesh = _merged(mesh) if path.suffix.lower() == ".stl" else mesh
-    return Named(mesh, *_names(parts), _bare(parts))
+    return NamedMesh(mesh, *_names(parts), _bare(parts))
 
 
-def _names(parts: list[Part]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
+def _names(parts: list[FilePart]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
     """The names of materials of all parts, and which each triangle has."""
     numbers = {name: k for k, name in enumerate(dict.fromkeys(n for p in parts for n in p.names))}
     if not numbers:
@@ -128,7 +128,7 @@ def _names(parts: list[Part]) -> tuple[tuple[str, ...], NDArray[np.intp]]:
     return tuple(numbers), np.concatenate(found).astype(np.intp)
 
 
-def _bare(parts: list[Part]) -> Mask | None:
+def _bare(parts: list[FilePart]) -> Mask | None:
     """Which triangles of all parts have no uv though others have; None where none is so."""
     without = [part.uv is None for part in parts]
     if all(without) or not (any(without) or any(part.bare is not None for part in parts)):

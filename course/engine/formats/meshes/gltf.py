@@ -1,4 +1,4 @@
-"""GLB and glTF 2.0 bytes to `Part`s: what the file's scene shows, at rest.
+"""GLB and glTF 2.0 bytes to `FilePart`s: what the file's scene shows, at rest.
 
 This is code of our own over the JSON because a file is to be read as it is written, or refused by what it needs.
 trimesh 5.2 takes normalised integers for plain ones, moves skinned meshes by their nodes, and reads no morph weights,
@@ -17,7 +17,7 @@ from urllib.parse import unquote
 import numpy as np
 
 from course.base.errors import CourseError
-from course.base.inputs import LARGEST_DATA, Bound, read_input
+from course.base.inputs import LARGEST_DATA, InputLimit, read_input
 from course.engine.core.types import Floats64
 from course.engine.formats.meshes.beside import Beside
 from course.engine.formats.meshes.gltf_data import Data, item
@@ -25,7 +25,7 @@ from course.engine.formats.meshes.gltf_json import Node, Primitive, read_root
 from course.engine.formats.meshes.gltf_looks import name_of
 from course.engine.formats.meshes.gltf_nodes import Tree, placed, tree_of
 from course.engine.formats.meshes.gltf_shapes import Joints, part_of
-from course.engine.formats.meshes.parts import Part
+from course.engine.formats.meshes.parts import FilePart
 
 MOST_PARTS: Final = 1 << 16
 """Primitives of all meshes that are shown."""
@@ -36,7 +36,7 @@ MOST_TRIANGLES: Final = 1 << 26
 INSTANCING: Final = "EXT_mesh_gpu_instancing"
 
 
-def parse_glb(data: bytes, beside: Beside) -> list[Part]:
+def parse_glb(data: bytes, beside: Beside) -> list[FilePart]:
     """Return the parts of a GLB file, one for each primitive, or for each time that a skin moves one.
 
     Raises ValueError for what isn't GLB 2, needs an extension that isn't known, or is cut short, and for nodes that are
@@ -63,7 +63,7 @@ def files_beside(path: Path) -> list[str]:
     if path.suffix.lower() not in (".glb", ".gltf"):
         return []
     try:
-        data = read_input(path, "mesh file", Bound(LARGEST_DATA))
+        data = read_input(path, "mesh file", InputLimit(LARGEST_DATA))
         if data[:4] == b"glTF":
             data = bytes(dict(reversed(list(_chunks(memoryview(data)))))[b"JSON"])
         root, _ = read_root(data)
@@ -73,7 +73,7 @@ def files_beside(path: Path) -> list[str]:
     return [unquote(uri) for uri in uris if uri[:5].lower() != "data:"]
 
 
-def parse_gltf(data: bytes, beside: Beside) -> list[Part]:
+def parse_gltf(data: bytes, beside: Beside) -> list[FilePart]:
     """Return the same of a glTF file, whose buffers are in files beside it or in its text."""
     return _parts(data, None, beside)
 
@@ -88,13 +88,13 @@ def _chunks(data: memoryview) -> Iterator[tuple[bytes, memoryview]]:
         at += 8 + length
 
 
-def _parts(text: bytes, binary: memoryview | None, beside: Beside) -> list[Part]:
+def _parts(text: bytes, binary: memoryview | None, beside: Beside) -> list[FilePart]:
     root, notes = read_root(text)
     data = Data(root, binary, beside)
     tree, more = tree_of(root)
     notes += more
     left_out = 0
-    parts: list[Part] = []
+    parts: list[FilePart] = []
     triangles = 0
     for mesh, weights, skin, places in _shown(data, tree):
         for primitive in item(root.meshes, mesh, "mesh").primitives:
@@ -128,7 +128,7 @@ def _parts(text: bytes, binary: memoryview | None, beside: Beside) -> list[Part]
 
 def _part(
     data: Data, primitive: Primitive, weights: list[float], skin: Joints | None, mesh: int
-) -> Part:
+) -> FilePart:
     try:
         part = part_of(data, primitive, weights, skin)
     except ValueError as error:

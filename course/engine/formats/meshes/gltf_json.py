@@ -110,7 +110,7 @@ class Buffer(msgspec.Struct, frozen=True):
     uri: str | None = None
 
 
-class View(msgspec.Struct, frozen=True):
+class BufferView(msgspec.Struct, frozen=True):
     """Bytes of a buffer."""
 
     buffer: Index
@@ -209,7 +209,7 @@ class Root(msgspec.Struct, frozen=True):
     nodes: list[Node] = []
     meshes: list[MeshOf] = []
     accessors: list[Accessor] = []
-    bufferViews: list[View] = []  # noqa: N815
+    bufferViews: list[BufferView] = []  # noqa: N815
     buffers: list[Buffer] = []
     skins: list[Skin] = []
     materials: list[Material] = []

@@ -9,7 +9,7 @@ from course.engine.core.types import Floats, Floats64, Indices
 from course.engine.formats.meshes.gltf_data import Data
 from course.engine.formats.meshes.gltf_json import Primitive, Skin
 from course.engine.formats.meshes.gltf_looks import cut_out, material_of, name_of, uv_of
-from course.engine.formats.meshes.parts import Part
+from course.engine.formats.meshes.parts import FilePart
 
 
 def triangles_of(data: Data, primitive: Primitive, vertices: int) -> Indices:
@@ -32,7 +32,9 @@ def triangles_of(data: Data, primitive: Primitive, vertices: int) -> Indices:
     return order[np.stack([k, k + 1 + odd, k + 2 - odd], axis=1)]
 
 
-def part_of(data: Data, primitive: Primitive, weights: list[float], skin: "Joints | None") -> Part:
+def part_of(
+    data: Data, primitive: Primitive, weights: list[float], skin: "Joints | None"
+) -> FilePart:
     """The part of a primitive of triangles.
 
     Parameters
@@ -69,7 +71,7 @@ def part_of(data: Data, primitive: Primitive, weights: list[float], skin: "Joint
             " the object's material says otherwise"
         )
     # Without normals triangles are flat (glTF 2.0, 3.7.2.1).
-    return Part(vertices, triangles, normals, uv, flat=normals is None, notes=tuple(notes))
+    return FilePart(vertices, triangles, normals, uv, flat=normals is None, notes=tuple(notes))
 
 
 def _like(rows: Floats, others: Floats) -> Floats:

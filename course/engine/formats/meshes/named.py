@@ -7,7 +7,7 @@ from course.engine.shapes.mesh import Mesh
 
 
 @dataclass(frozen=True)
-class Named:
+class NamedMesh:
     """A mesh, and which of its triangles have which of the file's materials.
 
     Attributes

@@ -1,4 +1,4 @@
-"""OBJ bytes to a `Part`: v, vt, vn and f, the smoothing groups of s, and the names of usemtl.
+"""OBJ bytes to a `FilePart`: v, vt, vn and f, the smoothing groups of s, and the names of usemtl.
 
 The format: Wavefront, "Object Files (.obj)", appendix B1 of the Advanced Visualizer's manual.
 
@@ -20,7 +20,7 @@ from course.base.inputs import INVISIBLE, text_of
 from course.engine.core.types import Floats64, Indices, Mask
 from course.engine.formats.meshes.obj_corners import KINDS, Corners, Face, corners_of
 from course.engine.formats.meshes.parts import (
-    Part,
+    FilePart,
     behind,
     doubtful,
     numbers,
@@ -118,7 +118,7 @@ class _Lines:
             self.passed.setdefault(keyword, []).append(number)
 
 
-def parse_obj(data: bytes) -> list[Part]:
+def parse_obj(data: bytes) -> list[FilePart]:
     """Return the mesh of an OBJ file, its polygons cut into triangles: one part, whatever its groups and materials.
 
     Vertices are parted where faces give them several uv or normals, and where smoothing groups end. Corners without uv,
@@ -171,7 +171,7 @@ def _part(
     corners: Corners,
     where: Indices,
     group: Indices | None,
-) -> Part:
+) -> FilePart:
     """Vertices and triangles; ``group``: of each corner the smoothing group, None where there are none at all."""
     (v, vt, vn), (vertex, at, toward) = rows, corners
     if toward is not None and group is not None:
@@ -179,10 +179,10 @@ def _part(
     flat = toward is None and group is not None and bool((group < 0).all())
     group = None if flat else group
     if at is None and toward is None and group is None:
-        return Part(v, vertex[where], None, None, flat=flat)
+        return FilePart(v, vertex[where], None, None, flat=flat)
     columns = [each for each in (*corners, group) if each is not None]
     first, corner = same(*columns)
-    return Part(
+    return FilePart(
         vertices=v[vertex[first]],
         triangles=corner[where],
         normals=_rows_or_zeros(vn, toward, first),

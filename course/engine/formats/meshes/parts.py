@@ -17,7 +17,7 @@ Array = NDArray[Any]
 
 
 @dataclass(frozen=True)
-class Part:
+class FilePart:
     """One geometry of a file, as it stands there: nothing is checked.
 
     Attributes

@@ -1,4 +1,4 @@
-"""PLY bytes to a `Part`: the header, its elements' rows as columns of numbers, and the mesh that these are.
+"""PLY bytes to a `FilePart`: the header, its elements' rows as columns of numbers, and the mesh that these are.
 
 This is code of our own because a file is to be read as it is written, or refused with its line. trimesh 5.2 fails on
 31 of the 80 right files in `tests/engine/formats/meshes/test_broken_ply.py` and `test_ply_elements.py`, such as faces
@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from course.base.inputs import text_of, without_marks
 from course.engine.formats.meshes.parts import (
     Array,
+    FilePart,
     Lists,
-    Part,
     behind,
     doubtful,
     numbers,
@@ -83,7 +83,7 @@ class Property:
 
 
 @dataclass(frozen=True)
-class Element:
+class PlyElement:
     """``rows`` things of one kind."""
 
     name: str
@@ -108,7 +108,7 @@ Columns: TypeAlias = dict[str, Column]
 """By a property's name."""
 
 
-def parse_ply(data: bytes) -> list[Part]:
+def parse_ply(data: bytes) -> list[FilePart]:
     """Return the mesh of a PLY file, its polygons cut into triangles, with uv by vertex or by corner.
 
     Elements and properties of other names are left out. Faces whose list of uv is empty, while others have uv, are at
@@ -143,7 +143,7 @@ def parse_ply(data: bytes) -> list[Part]:
         numbers_of, lengths, values = np.flatnonzero(kept), lengths[kept], values[chosen]
     cuts = cut(lengths, values, vertices)
     notes += doubtful([f"face {k}" for k in numbers_of[cuts.doubtful]])
-    part = Part(
+    part = FilePart(
         vertices=vertices,
         triangles=values[cuts.where],
         normals=normals,
@@ -174,7 +174,7 @@ def _stacked(columns: Columns, names: tuple[str, ...]) -> Array | None:
     return np.column_stack(plain) if len(plain) == len(names) else None
 
 
-def _split_by_corner(part: Part, uv: Array) -> Part:
+def _split_by_corner(part: FilePart, uv: Array) -> FilePart:
     """Return `part` with a vertex for each uv (3 T, 2) that its corners have."""
     vertex = part.triangles.ravel()
     first, corner = same(vertex, uv[:, 0], uv[:, 1])
@@ -191,7 +191,7 @@ def _split_by_corner(part: Part, uv: Array) -> Part:
 # ---------------------------------------------------------------- header
 
 
-def _header(data: bytes) -> tuple[str, list[Element], int]:
+def _header(data: bytes) -> tuple[str, list[PlyElement], int]:
     """One of ORDERS, the elements that have rows, and the byte at which their data begins; all checked."""
     if re.match(rb"(?i)ply\s", data) is None:
         raise ValueError("it doesn't begin with a line that says ply")
@@ -205,7 +205,7 @@ def _header(data: bytes) -> tuple[str, list[Element], int]:
     rows = [line.split() for line in lines]
     formats = [" ".join(words[1:2]) for words in rows if words[:1] == ["format"]]
     order = "".join(formats[:1])
-    elements: list[Element] = []
+    elements: list[PlyElement] = []
     names = 0
     for number, words in enumerate(rows[1:], start=2):
         # Messages list them.
@@ -228,7 +228,7 @@ def _header(data: bytes) -> tuple[str, list[Element], int]:
                 case ["element", name, count] if _COUNT.fullmatch(count):
                     if any(name == other.name for other in elements):
                         raise ValueError(f"expected element {name} once")
-                    elements.append(Element(name, int(count), []))
+                    elements.append(PlyElement(name, int(count), []))
                 case ["element", *_]:
                     raise ValueError(
                         "expected a name and how many there are, such as element vertex 8"
@@ -260,7 +260,7 @@ def _header(data: bytes) -> tuple[str, list[Element], int]:
     return order, elements, end.end()
 
 
-def _property(words: list[str], element: Element, order: str) -> Property:
+def _property(words: list[str], element: PlyElement, order: str) -> Property:
     match words:
         case ["list", _, _, name] | [_, name] if words[:-1] != ["list"]:
             types = words[-3:-1]
@@ -289,7 +289,7 @@ def _property(words: list[str], element: Element, order: str) -> Property:
     return Property(name, kind, count[0], 3 if corners else 0)
 
 
-def _check(element: Element) -> None:
+def _check(element: PlyElement) -> None:
     """Refuse what is no mesh; a face's only list is its corners, whatever its name."""
     properties = element.properties
     if not properties:
@@ -314,7 +314,7 @@ def _check(element: Element) -> None:
 # ---------------------------------------------------------------- data
 
 
-def _check_uv(element: Element, columns: Columns, lines: Sequence[int] = ()) -> None:
+def _check_uv(element: PlyElement, columns: Columns, lines: Sequence[int] = ()) -> None:
     """Refuse faces that have uv for some of their corners; ``lines`` are those of the faces, in text."""
     of, uv = _lists(columns) if element.name == "face" else (None, None)
     if of is None or uv is None:
@@ -330,7 +330,7 @@ def _check_uv(element: Element, columns: Columns, lines: Sequence[int] = ()) -> 
         )
 
 
-def _text(elements: list[Element], data: bytes, end: int) -> Iterator[tuple[str, Columns]]:
+def _text(elements: list[PlyElement], data: bytes, end: int) -> Iterator[tuple[str, Columns]]:
     """The columns of each element, by its name, of a file in text."""
     lines = text_of(data[end:], "replace").splitlines()
     first = data.count(b"\n", 0, end) + 1
@@ -351,7 +351,7 @@ def _text(elements: list[Element], data: bytes, end: int) -> Iterator[tuple[str,
         raise ValueError(f"line {first + filled[0]} is left over: a count in its header is wrong")
 
 
-def _text_columns(element: Element, lines: list[str]) -> Columns | None:
+def _text_columns(element: PlyElement, lines: list[str]) -> Columns | None:
     """Columns of an element's lines, without a loop over these; None where something is wrong with one."""
     words = np.array([len(line.split()) for line in lines])
     values = numbers(" ".join(lines))
@@ -381,7 +381,7 @@ def _text_columns(element: Element, lines: list[str]) -> Columns | None:
     return found if (at == ends).all() else None
 
 
-def _trouble(element: Element, row: int, words: list[str]) -> str | None:
+def _trouble(element: PlyElement, row: int, words: list[str]) -> str | None:
     """The error of the words of a row."""
     at = 0
     for each in element.properties:
@@ -417,7 +417,7 @@ def _whole(word: str) -> int:
     return int(real(word))
 
 
-def _binary(elements: list[Element], data: bytes, end: int) -> Iterator[tuple[str, Columns]]:
+def _binary(elements: list[PlyElement], data: bytes, end: int) -> Iterator[tuple[str, Columns]]:
     """The same of a binary file, in either order of bytes."""
     unexpected = f"its {len(data) - end} bytes of data are an unexpected length: {_CUT_SHORT}"
     at = end
@@ -432,7 +432,7 @@ def _binary(elements: list[Element], data: bytes, end: int) -> Iterator[tuple[st
         raise ValueError(unexpected)
 
 
-def _even_rows(element: Element, data: bytes, at: int) -> tuple[Columns, int] | None:
+def _even_rows(element: PlyElement, data: bytes, at: int) -> tuple[Columns, int] | None:
     """Columns and the byte at which they end, without a loop; None if not all lists are as long as the first row's."""
     fields: list[Any] = []
     step = 0
@@ -464,7 +464,7 @@ def _even_rows(element: Element, data: bytes, at: int) -> tuple[Columns, int] | 
     return found, end
 
 
-def _uneven_rows(element: Element, data: bytes, at: int) -> tuple[Columns, int] | None:
+def _uneven_rows(element: PlyElement, data: bytes, at: int) -> tuple[Columns, int] | None:
     """The same of any rows, looked at one after the other; None if the data ends before they do."""
     begin, size = at, len(data)
     big = any(">" in (each.count or each.kind).str for each in element.properties)

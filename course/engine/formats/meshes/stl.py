@@ -1,4 +1,4 @@
-"""STL bytes to a `Part`: binary, and text in its variants.
+"""STL bytes to a `FilePart`: binary, and text in its variants.
 
 This is code of our own because a file is to be read as it is written, or refused with its line. trimesh 5.2 finds no
 triangles in a file that ends in "end solid", and none in a binary one with bytes behind its last triangle.
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from course.base.inputs import text_of, without_marks
 from course.engine.core.types import Floats64
-from course.engine.formats.meshes.parts import Part, numbers, real
+from course.engine.formats.meshes.parts import FilePart, numbers, real
 
 HEADER = 84
 """Bytes before the first triangle: 80 of any text, and how many triangles there are."""
@@ -39,7 +39,7 @@ LARGEST_INDENT = 512
 """Bytes in which a text says that it is one."""
 
 
-def parse_stl(data: bytes) -> list[Part]:
+def parse_stl(data: bytes) -> list[FilePart]:
     """Return the solids of an STL file as one part, each triangle with vertices of its own.
 
     Raises ValueError for a file that is cut short, and naming the line for a word that is no number, a statement that
@@ -61,7 +61,7 @@ def _fits(data: bytes) -> bool:
     return len(data) >= HEADER and len(data) == HEADER + TRIANGLE.itemsize * _count(data)
 
 
-def _binary(data: bytes) -> list[Part]:
+def _binary(data: bytes) -> list[FilePart]:
     count, there = _count(data), (len(data) - HEADER) // TRIANGLE.itemsize
     if len(data) < HEADER or there < count:
         raise ValueError(
@@ -79,14 +79,14 @@ def _binary(data: bytes) -> list[Part]:
 
 def _parts(
     corners: NDArray[np.floating], normals: NDArray[np.floating], notes: list[str]
-) -> list[Part]:
+) -> list[FilePart]:
     if not len(corners):
         return []
     triangles = np.arange(len(corners)).reshape(-1, 3)
-    return [Part(corners, triangles, None, None, facets=normals, notes=tuple(notes))]
+    return [FilePart(corners, triangles, None, None, facets=normals, notes=tuple(notes))]
 
 
-def _text(text: str) -> list[Part]:
+def _text(text: str) -> list[FilePart]:
     lines = text.splitlines()
     if len(lines) < len(re.findall(r"(?i)\bvertex\b", text)):
         lines = _WORDS.sub("\n", text).splitlines()

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from course.base.errors import SceneError
-from course.engine.formats.metu.element import Element
+from course.engine.formats.metu.element import MetuElement
 from course.engine.formats.yaml.suggestions import suggest
 
 HIGHLIGHTS = {
@@ -48,9 +48,9 @@ class Brdf:
     model: str = "OriginalBlinnPhong"
     normalized: bool = False
     covers: bool = False
-    unknown: Element | None = None
+    unknown: MetuElement | None = None
 
-    def keys(self, material: Element, exponent: float) -> dict[str, Any]:
+    def keys(self, material: MetuElement, exponent: float) -> dict[str, Any]:
         """The keys of a highlight but for its colour; SceneError for facets without an index of refraction."""
         keys: dict[str, Any] = {"exponent": exponent, "highlight": HIGHLIGHTS[self.model]}
         if self.model != FACETS:
@@ -70,7 +70,7 @@ class Brdf:
         return (exponent + 2) / 2 if self.model == "ModifiedPhong" else (exponent + 8) / 8
 
 
-def read_brdfs(scene: Element) -> dict[str, Brdf]:
+def read_brdfs(scene: MetuElement) -> dict[str, Brdf]:
     """The models by id; those that are not known stand for themselves, and are refused where they are used."""
     parent = scene.maybe("BRDFs")
     found: dict[str, Brdf] = {}
@@ -91,7 +91,7 @@ def read_brdfs(scene: Element) -> dict[str, Brdf]:
     return found
 
 
-def brdf_of(material: Element, brdfs: Mapping[str, Brdf]) -> Brdf:
+def brdf_of(material: MetuElement, brdfs: Mapping[str, Brdf]) -> Brdf:
     """The model of a material; SceneError where there is none of that id."""
     name = material.attribute("BRDF")
     if not name:
@@ -111,7 +111,7 @@ def refused_brdf(brdf: Brdf) -> SceneError | None:
     )
 
 
-def pi_is_of_surfaces(scene: Element) -> bool:
+def pi_is_of_surfaces(scene: MetuElement) -> bool:
     """True if a scene's lights keep their strength, and its reflectances are pi times as large.
 
     This course divides reflectances by pi, METU's models don't, but for normalized ones. Where lights only send light
@@ -126,7 +126,7 @@ def pi_is_of_surfaces(scene: Element) -> bool:
     )
 
 
-def _all(element: Element) -> Iterator[Element]:
+def _all(element: MetuElement) -> Iterator[MetuElement]:
     yield element
     for child in element.children:
         yield from _all(child)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from course.engine.core.types import Floats64
-from course.engine.formats.metu.element import Element, Notes
+from course.engine.formats.metu.element import MetuElement, Notes
 from course.engine.formats.metu.renderers import Renderer, read_renderer
 from course.engine.formats.metu.transformations import matrix_of, point
 from course.engine.formats.yaml.consistency import sine
@@ -40,7 +40,7 @@ class MetuCamera:
 
 
 def read_cameras(
-    scene: Element, steps: dict[str, dict[str, Any]], notes: Notes
+    scene: MetuElement, steps: dict[str, dict[str, Any]], notes: Notes
 ) -> list[MetuCamera]:
     """All cameras of a scene; SceneError where there is none."""
     parent = scene.child("Cameras", "one Camera or more")
@@ -63,7 +63,7 @@ def read_cameras(
     return cameras
 
 
-def _camera(element: Element, steps: dict[str, dict[str, Any]], notes: Notes) -> MetuCamera:
+def _camera(element: MetuElement, steps: dict[str, dict[str, Any]], notes: Notes) -> MetuCamera:
     name = element.id()
     size = element.child("ImageResolution", "such as 800 600")
     width, height = size.numbers(2, "800 600")
@@ -103,7 +103,7 @@ def _camera(element: Element, steps: dict[str, dict[str, Any]], notes: Notes) ->
     return MetuCamera(name, _image_name(element, notes), camera, film, *rest)
 
 
-def _tone(element: Element, notes: Notes) -> dict[str, Any]:
+def _tone(element: MetuElement, notes: Notes) -> dict[str, Any]:
     """The film's tone mapping, by the first Tonemap that is Photographic; others are named and left out."""
     found: dict[str, Any] = {}
     for each in element.all("Tonemap"):
@@ -130,7 +130,7 @@ def _tone(element: Element, notes: Notes) -> dict[str, Any]:
     return found
 
 
-def _gaze(element: Element, position: Floats64) -> Floats64:
+def _gaze(element: MetuElement, position: Floats64) -> Floats64:
     # A gaze point is where it looks, a gaze the way there, of any length.
     where, looks_at = element.maybe("GazePoint"), _looks_at(element)
     if where is not None and (looks_at or element.maybe("Gaze") is None):
@@ -143,7 +143,7 @@ def _gaze(element: Element, position: Floats64) -> Floats64:
     return np.asarray(gaze)
 
 
-def _looks_at(element: Element) -> bool:
+def _looks_at(element: MetuElement) -> bool:
     """True for a lookAt camera: by its type, or by a field of view in place of a near plane."""
     kind = element.attribute("type")
     if kind not in (None, "", "simple", "lookAt"):
@@ -154,7 +154,7 @@ def _looks_at(element: Element) -> bool:
     return "FovY" in tags and "NearPlane" not in tags
 
 
-def _window(element: Element, notes: Notes) -> dict[str, Any]:
+def _window(element: MetuElement, notes: Notes) -> dict[str, Any]:
     looks_at = _looks_at(element)
     distance = element.child("NearDistance", "such as 1").number(0, above=True)
     if looks_at:
@@ -173,7 +173,7 @@ def _window(element: Element, notes: Notes) -> dict[str, Any]:
     return {"image_plane": plane}
 
 
-def _lens(element: Element) -> dict[str, Any]:
+def _lens(element: MetuElement) -> dict[str, Any]:
     distance = element.number_of("FocusDistance", 0.0)
     edge = element.number_of("ApertureSize", 0.0)
     if edge == 0:
@@ -187,7 +187,7 @@ def _lens(element: Element) -> dict[str, Any]:
     return {"lens": lens}
 
 
-def _sampler(element: Element, notes: Notes) -> dict[str, Any]:
+def _sampler(element: MetuElement, notes: Notes) -> dict[str, Any]:
     found = element.maybe("NumSamples")
     count = 1 if found is None else found.whole(1)
     if found is None or count == 1:
@@ -202,7 +202,7 @@ def _sampler(element: Element, notes: Notes) -> dict[str, Any]:
     return {"type": "jittered", "samples": root * root}
 
 
-def _image_name(element: Element, notes: Notes) -> str:
+def _image_name(element: MetuElement, notes: Notes) -> str:
     found = element.maybe("ImageName")
     if found is None:
         return f"camera-{element.id()}.png"

@@ -14,7 +14,7 @@ from course.base.atomic import write_text
 from course.base.errors import SceneError
 from course.engine.formats.metu.brdfs import pi_is_of_surfaces, read_brdfs
 from course.engine.formats.metu.cameras import MetuCamera, read_cameras
-from course.engine.formats.metu.element import Element, Notes
+from course.engine.formats.metu.element import MetuElement, Notes
 from course.engine.formats.metu.lights import read_environment, read_images, read_lights
 from course.engine.formats.metu.materials import material_name, read_materials
 from course.engine.formats.metu.meshes import MeshTable, read_vertices
@@ -129,7 +129,7 @@ def _with_name(told: str, path: Path) -> str:
 
 
 def _common(
-    scene: Element,
+    scene: MetuElement,
     source: Path,
     steps: dict[str, dict[str, Any]],
     eyes: list[list[float]],
@@ -183,7 +183,7 @@ def _common(
     }
 
 
-def _depth(scene: Element, notes: Notes) -> int:
+def _depth(scene: MetuElement, notes: Notes) -> int:
     element = scene.maybe("MaxRecursionDepth")
     depth = DEPTH if element is None else element.whole(0)
     if element is not None and depth > DEEPEST:
@@ -191,7 +191,7 @@ def _depth(scene: Element, notes: Notes) -> int:
     return min(depth, DEEPEST)
 
 
-def _pass_over_empty(scene: Element) -> None:
+def _pass_over_empty(scene: MetuElement) -> None:
     """A table that other scenes have, and that stands here without anything in it, is no loss."""
     tables = [each for each in scene.children if each.tag == "NormalData"]
     if not any(each.text.strip() or each.children for each in tables):

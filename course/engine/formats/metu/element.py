@@ -15,7 +15,7 @@ from course.engine.formats.yaml.tree import LARGEST, SMALLEST
 
 
 @dataclass
-class Element:
+class MetuElement:
     """A tag with attributes, text and children; what nobody has asked for is left over at the end.
 
     Attributes
@@ -30,7 +30,7 @@ class Element:
     path: str
     where: str
     attributes: dict[str, str] = field(default_factory=dict)
-    children: "list[Element]" = field(default_factory=list)
+    children: "list[MetuElement]" = field(default_factory=list)
     text: str = ""
     plain: bool = False
     _asked: set[str] = field(default_factory=set)
@@ -72,21 +72,21 @@ class Element:
             raise self.error(f"{name} is {show(value)}: expected true or false")
         return value in {"true", "1"}
 
-    def all(self, tag: str) -> "list[Element]":
+    def all(self, tag: str) -> "list[MetuElement]":
         """The children of that name; SceneError for a number or a text in JSON where children could be."""
         self._asked.add(tag)
         if self.text.strip():
             self._check_map()
         return [child for child in self.children if child.tag == tag]
 
-    def maybe(self, tag: str) -> "Element | None":
+    def maybe(self, tag: str) -> "MetuElement | None":
         """The child of that name, if there is one; SceneError for several."""
         found = self.all(tag)
         if len(found) > 1:
             raise found[1].error(f"there are {len(found)} of it: expected one")
         return found[0] if found else None
 
-    def child(self, tag: str, example: str) -> "Element":
+    def child(self, tag: str, example: str) -> "MetuElement":
         """The child of that name; SceneError where it is missing.
 
         ``example``: what it is to be, or "such as" and an example of its text
@@ -205,11 +205,11 @@ class Notes:
 
     _kinds: dict[str, _Kind] = field(default_factory=dict)
 
-    def add(self, element: Element, message: str) -> None:
+    def add(self, element: MetuElement, message: str) -> None:
         """Say something about an element."""
         self._add(element.where, element.path, message)
 
-    def add_left_over(self, root: Element) -> None:
+    def add_left_over(self, root: MetuElement) -> None:
         """Name every part of the file that nobody has asked for; SceneError where one is refused."""
         refuse(root.left_over())
         for where, path in root.left_over():

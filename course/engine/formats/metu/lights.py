@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from course.engine.core.types import Floats64
-from course.engine.formats.metu.element import Element
+from course.engine.formats.metu.element import MetuElement
 from course.engine.formats.metu.transformations import matrix_of, point
 from course.engine.formats.metu.transformations import normal as transformed_normal
 from course.engine.formats.yaml.document import show
@@ -25,7 +25,7 @@ ENVIRONMENTS = {"latlong": "lat_long", "probe": "angular"}
 
 
 def read_lights(
-    scene: Element, steps: dict[str, dict[str, Any]], pi: float = math.pi
+    scene: MetuElement, steps: dict[str, dict[str, Any]], pi: float = math.pi
 ) -> list[dict[str, Any]]:
     """The lights of a scene.
 
@@ -47,11 +47,11 @@ def read_lights(
 
 
 def read_environment(
-    scene: Element,
-    images: Mapping[str, Element],
+    scene: MetuElement,
+    images: Mapping[str, MetuElement],
     name_of: Callable[[Path], str],
     folder: Path,
-    pictured: Callable[[Element | None], dict[str, Any] | None],
+    pictured: Callable[[MetuElement | None], dict[str, Any] | None],
 ) -> dict[str, Any]:
     """What rays see that hit nothing: the background, for camera rays only, or the environment, which sends light, too.
 
@@ -88,18 +88,18 @@ def read_environment(
     return {"type": ENVIRONMENTS[kind], "image": name_of(path), "lights": True}
 
 
-def read_images(scene: Element) -> dict[str, Element]:
+def read_images(scene: MetuElement) -> dict[str, MetuElement]:
     """The elements `Image` of `Textures/Images` by id."""
     parent = scene.maybe("Textures")
     table = None if parent is None else parent.maybe("Images")
-    images: dict[str, Element] = {}
+    images: dict[str, MetuElement] = {}
     for element in () if table is None else table.all("Image"):
         element.words()
         images[element.id(images)] = element
     return images
 
 
-def _directional(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
+def _directional(element: MetuElement, matrix: Floats64, pi: float) -> dict[str, Any]:
     element.attribute("id")
     direction = matrix[:3, :3] @ element.child("Direction", "such as 0 -1 0").direction()
     return {
@@ -109,7 +109,7 @@ def _directional(element: Element, matrix: Floats64, pi: float) -> dict[str, Any
     }
 
 
-def _point(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
+def _point(element: MetuElement, matrix: Floats64, pi: float) -> dict[str, Any]:
     element.attribute("id")
     position = np.array(element.child("Position", "such as 0 5 0").vector())
     return {
@@ -120,7 +120,7 @@ def _point(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
     }
 
 
-def _spot(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
+def _spot(element: MetuElement, matrix: Floats64, pi: float) -> dict[str, Any]:
     direction = matrix[:3, :3] @ element.child("Direction", "such as 0 -1 0").direction()
     coverage = element.child("CoverageAngle", "such as 30 [degree], from edge to edge")
     falloff = element.child("FalloffAngle", "such as 20 [degree], from edge to edge")
@@ -137,7 +137,7 @@ def _spot(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
     }
 
 
-def _area(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
+def _area(element: MetuElement, matrix: Floats64, pi: float) -> dict[str, Any]:
     element.attribute("id")
     position = np.array(element.child("Position", "such as 0 5 0").vector())
     normal = element.child("Normal", "such as 0 -1 0").direction()
@@ -173,5 +173,5 @@ def tangents(normal: Floats64) -> tuple[Floats64, Floats64]:
     return u, np.cross(n, u)
 
 
-def _times(factor: float, element: Element) -> list[float]:
+def _times(factor: float, element: MetuElement) -> list[float]:
     return [factor * value for value in element.color()]

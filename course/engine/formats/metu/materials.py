@@ -7,7 +7,7 @@ from typing import Any
 
 from course.base.errors import SceneError
 from course.engine.formats.metu.brdfs import FACETS, Brdf, brdf_of, refused_brdf
-from course.engine.formats.metu.element import Element, Notes
+from course.engine.formats.metu.element import MetuElement, Notes
 
 TYPES = ("mirror", "conductor", "dielectric")
 
@@ -52,7 +52,7 @@ def material_name(number: str) -> str:
 
 
 def read_materials(
-    scene: Element, notes: Notes, brdfs: Mapping[str, Brdf], of_surfaces: bool
+    scene: MetuElement, notes: Notes, brdfs: Mapping[str, Brdf], of_surfaces: bool
 ) -> tuple[dict[str, dict[str, Any]], dict[str, Body]]:
     """The materials of a scene by id, and what textures need of each.
 
@@ -71,7 +71,7 @@ def read_materials(
     return materials, bodies
 
 
-def _old_type(element: Element, notes: Notes) -> str:
+def _old_type(element: MetuElement, notes: Notes) -> str:
     """The type of a material in a file in which none has one, as in the homework of 2019."""
     mirror = element.maybe("MirrorReflectance")
     if mirror is None or not mirror.many("numbers, such as 0.5").any():
@@ -80,7 +80,7 @@ def _old_type(element: Element, notes: Notes) -> str:
     return "mirror"
 
 
-def _pass_over_opaque(element: Element) -> None:
+def _pass_over_opaque(element: MetuElement) -> None:
     """Ask for a Transparency of 0, which is no loss; any other is refused, as nobody asks for it (``refusals``)."""
     given = [child.text.split() for child in element.children if child.tag == "Transparency"]
     if all(word.strip("0.") == "" for words in given for word in words):
@@ -89,7 +89,7 @@ def _pass_over_opaque(element: Element) -> None:
 
 
 def _material(
-    element: Element, kind: str, notes: Notes, brdf: Brdf, of_surfaces: bool
+    element: MetuElement, kind: str, notes: Notes, brdf: Brdf, of_surfaces: bool
 ) -> tuple[dict[str, Any], Body]:
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")

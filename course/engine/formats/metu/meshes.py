@@ -14,11 +14,11 @@ import numpy as np
 
 from course.base.atomic import make_folder
 from course.base.errors import GeometryError, SceneError
-from course.base.inputs import LARGEST_DATA, Bound, opened
+from course.base.inputs import LARGEST_DATA, InputLimit, opened
 from course.engine.core.types import Floats32, Floats64, Indices
 from course.engine.formats.meshes.files import read_mesh, save_ply
 from course.engine.formats.meshes.smooth_normals import area_normals
-from course.engine.formats.metu.element import Element, Notes
+from course.engine.formats.metu.element import MetuElement, Notes
 from course.engine.formats.metu.lights import tangents
 from course.engine.formats.pictures.files import write_exr
 from course.engine.formats.yaml.document import show
@@ -27,7 +27,7 @@ from course.engine.shapes.mesh import Mesh
 LONGEST_HEADER = 1 << 16  # bytes
 
 
-def read_vertices(scene: Element) -> Floats64:
+def read_vertices(scene: MetuElement) -> Floats64:
     """The vertices of a scene, (V, 3) float64; none where it has no VertexData."""
     element = scene.maybe("VertexData")
     if element is None:
@@ -42,7 +42,7 @@ def read_vertices(scene: Element) -> Floats64:
 
 
 def inline_mesh(
-    faces: Element, vertices: Floats64, smooth: bool, places: Floats64 | None = None
+    faces: MetuElement, vertices: Floats64, smooth: bool, places: Floats64 | None = None
 ) -> Mesh:
     """The mesh of triples of vertex numbers, with only the vertices that it uses.
 
@@ -58,7 +58,7 @@ def inline_mesh(
     return Mesh(own, triangles, area_normals(own, triangles) if smooth else None, uv)
 
 
-def places_of(element: Element, numbers: Indices, places: Floats64) -> Floats64:
+def places_of(element: MetuElement, numbers: Indices, places: Floats64) -> Floats64:
     """Texture coordinates (n, 2) of numbers (n,) from 0 on; SceneError for one that TexCoordData doesn't have."""
     if len(numbers) and not 0 <= numbers.min() <= numbers.max() < len(places):
         raise element.error(
@@ -68,7 +68,7 @@ def places_of(element: Element, numbers: Indices, places: Floats64) -> Floats64:
     return places[numbers]
 
 
-def offset_of(faces: Element, name: str) -> int:
+def offset_of(faces: MetuElement, name: str) -> int:
     """What is added to each number of a vertex, or of its texture coordinates."""
     given = faces.attribute(name) or "0"
     try:
@@ -77,7 +77,7 @@ def offset_of(faces: Element, name: str) -> int:
         raise faces.error(f"{name} is {given!r}: expected a whole number") from None
 
 
-def corners_of(element: Element, vertices: Floats64, offset: int = 0) -> Indices:
+def corners_of(element: MetuElement, vertices: Floats64, offset: int = 0) -> Indices:
     """Triples of vertex numbers, counted from 1 in the file, as indices (T, 3)."""
     values = element.many("three vertex numbers for each triangle, such as 1 2 3")
     if len(values) == 0 or len(values) % 3 or (values != np.floor(values)).any():
@@ -86,7 +86,7 @@ def corners_of(element: Element, vertices: Floats64, offset: int = 0) -> Indices
     return (values + offset).astype(np.intp).reshape(-1, 3) - 1
 
 
-def check_indices(element: Element, numbers: Floats64, vertices: Floats64) -> None:
+def check_indices(element: MetuElement, numbers: Floats64, vertices: Floats64) -> None:
     """SceneError for a vertex number that VertexData doesn't have."""
     wrong = numbers[(numbers < 1) | (numbers > len(vertices))]
     if len(wrong):
@@ -95,7 +95,7 @@ def check_indices(element: Element, numbers: Floats64, vertices: Floats64) -> No
         )
 
 
-def mesh_file(faces: Element, name: str, folder: Path) -> Path:
+def mesh_file(faces: MetuElement, name: str, folder: Path) -> Path:
     """The file that Faces names; SceneError where there is none."""
     path = folder / name.replace("\\", "/")
     # Path.exists would raise an error of its own for a name that is too long.
@@ -108,7 +108,7 @@ def mesh_file(faces: Element, name: str, folder: Path) -> Path:
 
 def has_normals(path: Path) -> bool:
     """True if a PLY file has normals of its own."""
-    with opened(path, "mesh file", Bound(LARGEST_DATA), SceneError) as stream:
+    with opened(path, "mesh file", InputLimit(LARGEST_DATA), SceneError) as stream:
         header = stream.read(LONGEST_HEADER).partition(b"end_header")[0]
     names = {line.split()[-1] for line in header.splitlines() if line.startswith(b"property ")}
     return {b"nx", b"ny", b"nz"} <= names
@@ -130,11 +130,11 @@ class MeshTable:
     folder: str
     notes: Notes
     vertices: dict[str, Floats64] = field(default_factory=dict)
-    _named_by: dict[str, Element] = field(default_factory=dict)
+    _named_by: dict[str, MetuElement] = field(default_factory=dict)
     _own: dict[str, Mesh] = field(default_factory=dict)
     _pictures: dict[str, Floats32] = field(default_factory=dict)
 
-    def add_file(self, file: Path, faces: Element) -> str:
+    def add_file(self, file: Path, faces: MetuElement) -> str:
         """Read a file that an element names, once; its name. One that can't be used is told where it is named."""
         name = self.name_of(file)
         if name not in self._named_by:
@@ -148,7 +148,7 @@ class MeshTable:
             self._named_by[name] = faces
         return name
 
-    def add_own(self, mesh: Mesh, stem: str, source: Element) -> str:
+    def add_own(self, mesh: Mesh, stem: str, source: MetuElement) -> str:
         """Take a mesh that an element of the scene holds; its name, of that stem."""
         name = f"{self.folder}/{stem}.ply"
         self._check_area(mesh, source)
@@ -186,7 +186,7 @@ class MeshTable:
             make_folder(path.parent)
             write_exr(path, np.moveaxis(picture, -1, 0))
 
-    def _check_area(self, mesh: Mesh, source: Element) -> None:
+    def _check_area(self, mesh: Mesh, source: MetuElement) -> None:
         p0, p1, p2 = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
         if not np.cross(p1 - p0, p2 - p0).any():
             self.notes.add(source, "has no triangle with an area: nothing of it can be seen")

@@ -16,7 +16,7 @@ import numpy as np
 
 from course.engine.core.types import Floats64, Indices
 from course.engine.formats.meshes.files import read_mesh
-from course.engine.formats.metu.element import Element, Notes
+from course.engine.formats.metu.element import MetuElement, Notes
 from course.engine.formats.metu.materials import material_name
 from course.engine.formats.metu.meshes import (
     MeshTable,
@@ -29,7 +29,7 @@ from course.engine.formats.metu.meshes import (
     places_of,
     plane_mesh,
 )
-from course.engine.formats.metu.textures import Texture, Textures
+from course.engine.formats.metu.textures import TextureMap, Textures
 from course.engine.formats.metu.transformations import matrix_of, matrix_of_steps, transform_of
 from course.engine.formats.metu.transformations import normal as transformed_normal
 from course.engine.formats.metu.transformations import point as moved
@@ -61,7 +61,7 @@ INHERITED = ("shape", "file", "shading", "normals", "material")
 
 
 @dataclass(frozen=True)
-class Surface:
+class InstanceSurface:
     """What an instance with textures needs of its mesh.
 
     Attributes
@@ -71,7 +71,7 @@ class Surface:
     material : the id of its material
     """
 
-    faces: Element
+    faces: MetuElement
     mode: str | None
     material: str
 
@@ -105,10 +105,10 @@ class Objects:
     lamps: dict[str, dict[str, Any]] = field(default_factory=dict)
     balls: list[dict[str, Any]] = field(default_factory=list)
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
-    _surfaces: dict[str, Surface] = field(default_factory=dict)
+    _surfaces: dict[str, InstanceSurface] = field(default_factory=dict)
     _textured: int = 0
 
-    def read(self, scene: Element) -> list[dict[str, Any]]:
+    def read(self, scene: MetuElement) -> list[dict[str, Any]]:
         """All objects of a scene; `meshes.write` then writes the meshes that it holds itself."""
         parent = scene.child("Objects", "one object or more")
         things = [self._mesh(element) for element in parent.all("Mesh")]
@@ -144,16 +144,16 @@ class Objects:
         if "dielectric" not in self._materials()[thing["material"]]:
             thing["from_behind"] = "unseen" if thing.get("shading") == "flat" else "kept"
 
-    def _mesh(self, element: Element) -> dict[str, Any]:
+    def _mesh(self, element: MetuElement) -> dict[str, Any]:
         number = element.id(self._bases)
         thing = self._faces(element, "mesh", f"mesh {number}")
         self._bases[number] = thing
-        self._surfaces[number] = Surface(
+        self._surfaces[number] = InstanceSurface(
             element.child("Faces", ""), element.attribute("shadingMode"), _material_of(element)
         )
         return thing
 
-    def _lamp(self, element: Element, thing: dict[str, Any]) -> dict[str, Any]:
+    def _lamp(self, element: MetuElement, thing: dict[str, Any]) -> dict[str, Any]:
         """An object that is a light: it has a material of its own, which shines."""
         name = f"light {len(self.lamps) + 1}"
         material = self._materials()[thing["material"]]
@@ -168,7 +168,7 @@ class Objects:
         self.lamps[name] = material | {"emission": shown.tolist()}
         return thing | {"name": name, "material": name}
 
-    def _ball(self, element: Element, thing: dict[str, Any]) -> dict[str, Any] | None:
+    def _ball(self, element: MetuElement, thing: dict[str, Any]) -> dict[str, Any] | None:
         """A light of type sphere, looked for where it can be seen from; None where only a mesh is the same.
 
         It reflects nothing, has no other shape than a ball, and is dark inside.
@@ -188,7 +188,7 @@ class Objects:
         light |= {"radiance": _radiance(element).tolist(), "samples": "visible"}
         return light | ({"motion": motion} if motion else {})
 
-    def _faces(self, element: Element, stem: str, name: str) -> dict[str, Any]:
+    def _faces(self, element: MetuElement, stem: str, name: str) -> dict[str, Any]:
         """The keys of a mesh with a name; its file, if the scene holds it itself, has a name of that stem."""
         element.attribute("id")
         textures = self.textures.of(element)
@@ -211,7 +211,7 @@ class Objects:
         return {"shape": "mesh", "name": name, **shape, **common}
 
     def _shape(
-        self, faces: Element, given: str | None, textures: list[Texture], stem: str
+        self, faces: MetuElement, given: str | None, textures: list[TextureMap], stem: str
     ) -> dict[str, Any]:
         """The file of a mesh, and its shading; a file that is written has a name of that stem."""
         placed = [texture for texture in textures if texture.has_places]
@@ -235,7 +235,7 @@ class Objects:
             path = self.meshes.add_own(mesh, stem, faces)
         return {"file": path, "shading": mode, **normals}
 
-    def _with_uv(self, file: Path, faces: Element) -> Mesh:
+    def _with_uv(self, file: Path, faces: MetuElement) -> Mesh:
         """A mesh of a file that has texture coordinates; SceneError where it has none."""
         mesh = read_mesh(file, "area")
         if mesh.uv is None:
@@ -245,7 +245,7 @@ class Objects:
             )
         return mesh
 
-    def _instances(self, elements: list[Element]) -> list[dict[str, Any]]:
+    def _instances(self, elements: list[MetuElement]) -> list[dict[str, Any]]:
         """Instances of meshes and of other instances, whatever their order in the file."""
         left, things = dict(enumerate(elements)), dict[int, dict[str, Any]]()
         ids = Counter(element.id() for element in elements)
@@ -279,7 +279,7 @@ class Objects:
                 things[k] = self._instance(left.pop(k), base)
         return [things[k] for k in sorted(things)]
 
-    def _instance(self, element: Element, base: dict[str, Any]) -> dict[str, Any]:
+    def _instance(self, element: MetuElement, base: dict[str, Any]) -> dict[str, Any]:
         number = element.id()
         inherited = {key: base[key] for key in INHERITED if key in base}
         thing = inherited | {"name": f"instance {number}"}
@@ -306,7 +306,7 @@ class Objects:
         self._surfaces.setdefault(number, surface)
         return thing
 
-    def _sphere(self, element: Element, segments: int) -> dict[str, Any]:
+    def _sphere(self, element: MetuElement, segments: int) -> dict[str, Any]:
         element.attribute("id")
         textures = self.textures.of(element) if element.tag == "Sphere" else []
         center = element.child("Center", "the number of a vertex")
@@ -322,9 +322,9 @@ class Objects:
         }
         return thing | {"transform": [*turned, middle, *thing["transform"]]}
 
-    def _triangles(self, elements: list[Element]) -> list[dict[str, Any]]:
+    def _triangles(self, elements: list[MetuElement]) -> list[dict[str, Any]]:
         """Single triangles; those that look and move alike make one mesh."""
-        groups: dict[str, tuple[dict[str, Any], list[Indices], Element, list[Texture]]] = {}
+        groups: dict[str, tuple[dict[str, Any], list[Indices], MetuElement, list[TextureMap]]] = {}
         for element in elements:
             element.attribute("id")
             indices = element.child("Indices", "three vertex numbers, such as 1 2 3")
@@ -350,7 +350,7 @@ class Objects:
         return things
 
     def _planes(
-        self, elements: list[Element], others: list[dict[str, Any]]
+        self, elements: list[MetuElement], others: list[dict[str, Any]]
     ) -> list[dict[str, Any]]:
         """Infinite planes; what else there is tells how large they must be."""
         if not elements:
@@ -382,7 +382,7 @@ class Objects:
             found += [ends, ends + thing.get("motion", {}).get("velocity", 0.0)]
         return np.concatenate(found)
 
-    def _vertex(self, element: Element) -> Floats64:
+    def _vertex(self, element: MetuElement) -> Floats64:
         """The vertex whose number is an element's text, (3,)."""
         number = np.array(element.numbers(1, "1"))
         if number[0] != np.floor(number[0]):
@@ -392,7 +392,10 @@ class Objects:
         return found
 
     def _common(
-        self, element: Element, inherited: str | None = None, textures: Sequence[Texture] = ()
+        self,
+        element: MetuElement,
+        inherited: str | None = None,
+        textures: Sequence[TextureMap] = (),
     ) -> dict[str, Any]:
         """Material, transform and motion of an object.
 
@@ -417,7 +420,7 @@ class Objects:
         return keys
 
 
-def _radiance(lamp: Element) -> Floats64:
+def _radiance(lamp: MetuElement) -> Floats64:
     """That of an object that is a light, (3,)."""
     radiance = np.array(lamp.child("Radiance", "such as 30 30 30").color())
     if not radiance.any():
@@ -432,12 +435,12 @@ def _distance(point: Floats64, start: Floats64, end: Floats64) -> float:
     return float(np.linalg.norm(point - start - share * along))
 
 
-def _material_of(element: Element) -> str:
+def _material_of(element: MetuElement) -> str:
     """The id of the material that an object names."""
     return " ".join(element.child("Material", "the id of a material").words())
 
 
-def _base_of(element: Element) -> str:
+def _base_of(element: MetuElement) -> str:
     base = element.attribute("baseMeshId")
     if not base:
         raise element.error("baseMeshId is missing: expected the id of a mesh")

@@ -11,8 +11,8 @@ from typing import Any, Final
 from xml.parsers import expat
 
 from course.base.errors import SceneError
-from course.base.inputs import LARGEST_DATA, Bound, read_input, shown
-from course.engine.formats.metu.element import Element
+from course.base.inputs import LARGEST_DATA, InputLimit, read_input, shown
+from course.engine.formats.metu.element import MetuElement
 from course.engine.formats.metu.suffixes import SUFFIXES, is_metu
 from course.engine.formats.yaml.document import show
 
@@ -22,7 +22,7 @@ UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
 """Marks at the beginning of a file by which XML's other encoding is known."""
 
 
-def read_elements(path: Path) -> Element:
+def read_elements(path: Path) -> MetuElement:
     """Read a file as the element `Scene`.
 
     Raises SceneError for a file that is missing, unreadable, too large or not what its suffix says, for another root
@@ -33,7 +33,7 @@ def read_elements(path: Path) -> Element:
         raise SceneError(
             f"{file}: expected a METU scene, a file that ends in {' or '.join(SUFFIXES)}"
         )
-    data = read_input(path, "scene file", Bound(LARGEST_DATA), SceneError)
+    data = read_input(path, "scene file", InputLimit(LARGEST_DATA), SceneError)
     root = _json(data, file) if path.suffix.lower() == ".json" else _xml(data, file)
     _number(root)
     return root
@@ -44,8 +44,8 @@ class _XmlReader:
 
     def __init__(self, file: str) -> None:
         self.file = file
-        self.root: Element | None = None
-        self._open: list[tuple[Element, list[str]]] = []
+        self.root: MetuElement | None = None
+        self._open: list[tuple[MetuElement, list[str]]] = []
         self._parser = expat.ParserCreate()
         self._parser.buffer_text = True
         self._parser.StartElementHandler = self._start
@@ -53,7 +53,7 @@ class _XmlReader:
         self._parser.CharacterDataHandler = self._characters
         self._parser.StartDoctypeDeclHandler = self._doctype
 
-    def read(self, data: bytes) -> Element:
+    def read(self, data: bytes) -> MetuElement:
         try:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
@@ -84,7 +84,7 @@ class _XmlReader:
         return f"{self.file}:{self._parser.CurrentLineNumber}"
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
-        element = Element(tag, tag, self._where(), attributes)
+        element = MetuElement(tag, tag, self._where(), attributes)
         if self._open:
             self._open[-1][0].children.append(element)
         elif tag != ROOT:
@@ -108,11 +108,11 @@ class _XmlReader:
         )
 
 
-def _xml(data: bytes, file: str) -> Element:
+def _xml(data: bytes, file: str) -> MetuElement:
     return _XmlReader(file).read(data)
 
 
-def _json(data: bytes, file: str) -> Element:
+def _json(data: bytes, file: str) -> MetuElement:
     try:
         content = json.loads(data, object_pairs_hook=lambda pairs: _map(pairs, file))
     except json.JSONDecodeError as error:
@@ -126,7 +126,7 @@ def _json(data: bytes, file: str) -> Element:
         raise SceneError(f"{file}: expected a map with the key {ROOT}, which holds the scene")
     others = [key for key in content if key != ROOT]
     root = _from_json(ROOT, content[ROOT], file, 1)
-    root.children += [Element(key, key, file) for key in others]
+    root.children += [MetuElement(key, key, file) for key in others]
     return root
 
 
@@ -143,10 +143,10 @@ def _map(pairs: list[tuple[str, Any]], file: str) -> dict[str, Any]:
     return found
 
 
-def _from_json(tag: str, value: Any, file: str, depth: int) -> Element:
+def _from_json(tag: str, value: Any, file: str, depth: int) -> MetuElement:
     if depth > DEEPEST:
         raise SceneError(f"{file}: {show(tag)}: nested more than {DEEPEST} levels deep")
-    element = Element(tag, tag, file, plain=not isinstance(value, dict))
+    element = MetuElement(tag, tag, file, plain=not isinstance(value, dict))
     if not isinstance(value, dict):
         element.text = _text(value)
         return element
@@ -177,7 +177,7 @@ def _all_numbers(items: list[Any]) -> bool:
     )
 
 
-def _number(element: Element) -> None:
+def _number(element: MetuElement) -> None:
     """Give each element below this one its path; those of one name are counted from 1."""
     total: dict[str, int] = {}
     for child in element.children:

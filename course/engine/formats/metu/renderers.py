@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, Final
 
-from course.engine.formats.metu.element import Element, Notes
+from course.engine.formats.metu.element import MetuElement, Notes
 
 RENDERERS: Final = ("DirectLighting", "PathTracing")
 NEXT_EVENT, IMPORTANCE, ROULETTE = "NextEventEstimation", "ImportanceSampling", "RussianRoulette"
@@ -22,7 +22,7 @@ class Renderer:
     parameters : the words of `RendererParams`
     """
 
-    element: Element | None = None
+    element: MetuElement | None = None
     parameters: tuple[str, ...] = ()
 
     def keys(self, direct: dict[str, Any]) -> dict[str, Any]:
@@ -34,7 +34,7 @@ class Renderer:
             return {"type": "path", "roulette": None}
         return {"type": "path", "roulette": first, "max_depth": max(first, LONGEST)}
 
-    def check(self, scene: Element, common: dict[str, Any], notes: Notes) -> None:
+    def check(self, scene: MetuElement, common: dict[str, Any], notes: Notes) -> None:
         """SceneError for lights that these paths would not find in METU's renderers; and what there is to say.
 
         ``common``: the converted scene.
@@ -62,14 +62,14 @@ class Renderer:
                 )
 
 
-def _lights(scene: Element) -> list[Element]:
+def _lights(scene: MetuElement) -> list[MetuElement]:
     """The lights without a surface, in the order in which they are converted."""
     parent = scene.maybe("Lights")
     kinds = ("AmbientLight", "PointLight", "AreaLight", "DirectionalLight", "SpotLight")
     return [] if parent is None else [light for kind in kinds for light in parent.all(kind)]
 
 
-def read_renderer(camera: Element) -> Renderer:
+def read_renderer(camera: MetuElement) -> Renderer:
     """What a camera says; direct light where it says nothing."""
     element, parameters = camera.maybe("Renderer"), camera.maybe("RendererParams")
     words = () if parameters is None else tuple(parameters.words())

@@ -14,7 +14,7 @@ import numpy as np
 
 from course.base.errors import SceneError
 from course.engine.core.types import Floats64
-from course.engine.formats.metu.element import Element
+from course.engine.formats.metu.element import MetuElement
 from course.engine.formats.metu.materials import DEGAMMA, Body
 from course.engine.formats.metu.meshes import MeshTable
 from course.engine.formats.pictures.reading import LINEAR, read_picture
@@ -47,7 +47,7 @@ PASTED: Final[dict[str, Any]] = {"color": 1.0, "unlit": WHITE}
 
 
 @dataclass(frozen=True)
-class Texture:
+class TextureMap:
     """A `TextureMap`.
 
     Attributes
@@ -63,7 +63,7 @@ class Texture:
     degamma : true if the values over the normalizer are codes of a screen
     """
 
-    element: Element
+    element: MetuElement
     number: str
     file: Path
     mode: str
@@ -167,7 +167,7 @@ class Textures:
     made : the materials by name
     """
 
-    maps: dict[str, "Texture | Refused"]
+    maps: dict[str, "TextureMap | Refused"]
     places: Floats64
     ambient: Floats64
     bodies: dict[str, Body]
@@ -176,7 +176,7 @@ class Textures:
     _sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
     _told: set[str] = field(default_factory=set)
 
-    def of(self, thing: Element) -> list[Texture]:
+    def of(self, thing: MetuElement) -> list[TextureMap]:
         """The textures of an object, of each kind at most one; SceneError for one that can't be converted."""
         element = thing.maybe("Textures")
         names = [] if element is None else element.words()
@@ -207,7 +207,7 @@ class Textures:
             return found[:1]
         return found
 
-    def background(self, instead: Element | None) -> dict[str, Any] | None:
+    def background(self, instead: MetuElement | None) -> dict[str, Any] | None:
         """The environment that a texture is for the camera; None where none is.
 
         ``instead``: another environment, beside which there can't be one.
@@ -215,7 +215,7 @@ class Textures:
         found = [
             each
             for each in self.maps.values()
-            if isinstance(each, Texture) and each.kind == "background"
+            if isinstance(each, TextureMap) and each.kind == "background"
         ]
         if not found:
             return None
@@ -233,7 +233,7 @@ class Textures:
         drawn = {"interpolation": "nearest"} if texture.nearest else {}
         return {"type": "backdrop", "image": file, "scale": scale} | drawn
 
-    def material(self, textures: list[Texture], number: str, keys: dict[str, Any]) -> str:
+    def material(self, textures: list[TextureMap], number: str, keys: dict[str, Any]) -> str:
         """The name of a material with textures; ``keys`` are those that it has without."""
         numbers = " and ".join(texture.number for texture in textures)
         name = f"material {number} with texture {numbers}"
@@ -243,7 +243,7 @@ class Textures:
             self.made[name] = keys
         return name
 
-    def _with(self, texture: Texture, number: str, keys: dict[str, Any]) -> dict[str, Any]:
+    def _with(self, texture: TextureMap, number: str, keys: dict[str, Any]) -> dict[str, Any]:
         body = self.bodies[number]
         self._tell(texture)
         if body.degamma and texture.is_reflectance and not texture.degamma:
@@ -285,14 +285,14 @@ class Textures:
             return PASTED | {"unlit": white, "texture": drawn}
         return self._painted(keys, body.by) | {"texture": drawn}
 
-    def _tell(self, texture: Texture) -> None:
+    def _tell(self, texture: TextureMap) -> None:
         """What there is to say of a texture, once."""
         if texture.number not in self._told:
             self._told.add(texture.number)
             for remark in texture.remarks():
                 self.files.notes.add(texture.element, remark)
 
-    def tell_of_sphere(self, textures: list[Texture]) -> None:
+    def tell_of_sphere(self, textures: list[TextureMap]) -> None:
         """Where they lie on a ball is no more than half a texel off."""
         for texture in textures:
             if texture.has_places and not texture.nearest:
@@ -312,7 +312,7 @@ class Textures:
             "emission": (of_ambient * self.ambient).tolist(),
         }
 
-    def placed(self, textures: list[Texture], mesh: Mesh) -> Mesh:
+    def placed(self, textures: list[TextureMap], mesh: Mesh) -> Mesh:
         """A mesh whose uv are METU's, with those of this course; the material of the textures has been asked for.
 
         ``textures``: they are moved by the texels of the first.
@@ -330,7 +330,7 @@ class Textures:
         uv = np.stack((u + away[0], 1 - v - away[1]), axis=1)
         return Mesh(mesh.vertices, mesh.triangles, mesh.normals, uv)
 
-    def _away(self, texture: Texture) -> tuple[float, float]:
+    def _away(self, texture: TextureMap) -> tuple[float, float]:
         """By how much of u and v the middles of this course's texels are away from the places of METU's."""
         width, height = self._sizes[texture.number]
         return (0.0, 0.0) if texture.nearest else (0.5 / width, 0.5 / height)
@@ -340,7 +340,7 @@ class Textures:
 class Refused:
     """A `TextureMap` that can't be converted, and why."""
 
-    element: Element
+    element: MetuElement
     why: str
 
     def error(self, remedy: str) -> SceneError:
@@ -349,8 +349,8 @@ class Refused:
 
 
 def read_maps(
-    scene: Element, images: dict[str, Element], folder: Path
-) -> dict[str, Texture | Refused]:
+    scene: MetuElement, images: dict[str, MetuElement], folder: Path
+) -> dict[str, TextureMap | Refused]:
     """All texture maps by id.
 
     Parameters
@@ -359,7 +359,7 @@ def read_maps(
     folder : from which they are named
     """
     parent = scene.maybe("Textures")
-    maps: dict[str, Texture | Refused] = {}
+    maps: dict[str, TextureMap | Refused] = {}
     for element in () if parent is None else parent.all("TextureMap"):
         number = element.id(maps)
         texture = maps[number] = _map(element, number, images, folder)
@@ -369,8 +369,8 @@ def read_maps(
 
 
 def _map(
-    element: Element, number: str, images: dict[str, Element], folder: Path
-) -> Texture | Refused:
+    element: MetuElement, number: str, images: dict[str, MetuElement], folder: Path
+) -> TextureMap | Refused:
     kind, mode = element.attribute("type") or "image", _word(element, "DecalMode") or "replace_kd"
     between = _word(element, "Interpolation") or "nearest"
     scale = element.maybe("Normalizer")
@@ -398,12 +398,12 @@ def _map(
         raise image.unexpected(f"the id of an Image; {suggest(name, images)}")
     file = " ".join(images[name].words())
     path = folder / file.replace("\\", "/")
-    return Texture(element, number, path, mode, between, normalizer, None, height, degamma)
+    return TextureMap(element, number, path, mode, between, normalizer, None, height, degamma)
 
 
 def _noise(
-    element: Element, number: str, mode: str, height: float, degamma: bool
-) -> Texture | Refused:
+    element: MetuElement, number: str, mode: str, height: float, degamma: bool
+) -> TextureMap | Refused:
     if mode not in OF_PERLIN:
         return Refused(
             element,
@@ -417,15 +417,15 @@ def _noise(
         "scale": 1.0 if scale is None else scale.number(0, above=True),
         "conversion": CONVERSIONS[conversion],
     }
-    return Texture(element, number, Path(), mode, "bilinear", 1.0, keys, height, degamma)
+    return TextureMap(element, number, Path(), mode, "bilinear", 1.0, keys, height, degamma)
 
 
-def _word(element: Element, tag: str) -> str:
+def _word(element: MetuElement, tag: str) -> str:
     child = element.maybe(tag)
     return "" if child is None else " ".join(child.words())
 
 
-def read_places(scene: Element) -> Floats64:
+def read_places(scene: MetuElement) -> Floats64:
     """`TexCoordData`, (P, 2)."""
     element = scene.maybe("TexCoordData")
     if element is None or not element.text.strip():

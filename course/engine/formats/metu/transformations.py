@@ -6,7 +6,7 @@ import numpy as np
 
 from course.engine.core.types import Floats64
 from course.engine.formats.meshes import transforms
-from course.engine.formats.metu.element import Element
+from course.engine.formats.metu.element import MetuElement
 from course.engine.formats.yaml.consistency import flattens
 from course.engine.formats.yaml.suggestions import suggest
 
@@ -19,7 +19,7 @@ KINDS = {"Translation": "t", "Scaling": "s", "Rotation": "r", "Composite": "c"}
 IDENTITY = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1"
 
 
-def read_steps(scene: Element) -> dict[str, dict[str, Any]]:
+def read_steps(scene: MetuElement) -> dict[str, dict[str, Any]]:
     """The steps of a scene by letter and id, such as t1."""
     parent = scene.maybe("Transformations")
     steps: dict[str, dict[str, Any]] = {}
@@ -32,7 +32,7 @@ def read_steps(scene: Element) -> dict[str, dict[str, Any]]:
     return steps
 
 
-def transform_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Steps:
+def transform_of(thing: MetuElement, steps: dict[str, dict[str, Any]]) -> Steps:
     """The steps of an object, the first one first."""
     element = thing.maybe("Transformations")
     if element is None:
@@ -48,7 +48,7 @@ def transform_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Steps:
     return chosen
 
 
-def matrix_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Floats64:
+def matrix_of(thing: MetuElement, steps: dict[str, dict[str, Any]]) -> Floats64:
     """All steps of a thing as one matrix, (4, 4) float64, that acts on columns."""
     return matrix_of_steps(transform_of(thing, steps))
 
@@ -71,7 +71,7 @@ def normal(matrix: Floats64, direction: Floats64) -> Floats64:
     return turned
 
 
-def _step(kind: str, element: Element) -> dict[str, Any]:
+def _step(kind: str, element: MetuElement) -> dict[str, Any]:
     if kind == "Translation":
         return {"translate": list(element.vector())}
     if kind == "Scaling":
@@ -87,7 +87,7 @@ def _step(kind: str, element: Element) -> dict[str, Any]:
     return {"rotate": {"axis": axis, "degrees": degrees}}
 
 
-def _rows(element: Element) -> list[list[float]]:
+def _rows(element: MetuElement) -> list[list[float]]:
     """The rows of a matrix that acts on columns."""
     matrix = np.array(element.numbers(16, IDENTITY)).reshape(4, 4)
     if matrix[3].tolist() != [0, 0, 0, 1]:

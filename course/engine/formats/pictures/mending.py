@@ -21,7 +21,7 @@ STRIP: Final = 1 << 20
 
 
 @dataclass(frozen=True)
-class Found:
+class ReadPicture:
     """A picture as it has been read.
 
     Attributes
@@ -36,7 +36,7 @@ class Found:
     white: float = np.inf
 
 
-def mend(found: Found, path: Path) -> list[str]:
+def mend(found: ReadPicture, path: Path) -> list[str]:
     """Make values those that light can have, and say of how many pixels; SceneError where some are no numbers."""
     infinite = negative = bright = 0
     lowest: tuple[float, int, int] = 0.0, 0, 0

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, BinaryIO, Final
 import numpy as np
 
 from course.base.errors import CourseWarning, SceneError
-from course.base.inputs import LARGEST_DATA, MOST_PIXELS, Bound, opened, shown
+from course.base.inputs import LARGEST_DATA, MOST_PIXELS, InputLimit, opened, shown
 from course.engine.core.types import Floats32
 from course.engine.formats.pictures.alpha import see_through
 from course.engine.formats.pictures.icc import in_srgb, is_srgb
 from course.engine.formats.pictures.layers import choose
-from course.engine.formats.pictures.mending import Found, mend, parts_of, strips
+from course.engine.formats.pictures.mending import ReadPicture, mend, parts_of, strips
 from course.engine.formats.pictures.placing import (
     in_display_window,
     in_other_colours,
@@ -48,16 +48,16 @@ TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 FRAMES: Final = ("GIF", "WEBP", "TIFF", "PNG")
 """Formats that may have several pictures of which each is one to be looked at."""
 
-USUAL_FILE: Final = Bound(LARGEST_DATA)
-USUAL_PIXELS: Final = Bound(MOST_PIXELS)
+USUAL_FILE: Final = InputLimit(LARGEST_DATA)
+USUAL_PIXELS: Final = InputLimit(MOST_PIXELS)
 
 _OPENING = threading.Lock()
 
 
 def read_picture(
     path: Path,
-    bound: Bound = USUAL_FILE,
-    pixels: Bound = USUAL_PIXELS,
+    bound: InputLimit = USUAL_FILE,
+    pixels: InputLimit = USUAL_PIXELS,
     codes: bool = False,
     layer: str | None = None,
 ) -> Floats32:
@@ -99,12 +99,12 @@ def read_picture(
     return found.pixels
 
 
-def _check_size(width: int, height: int, pixels: Bound) -> None:
+def _check_size(width: int, height: int, pixels: InputLimit) -> None:
     if width * height > pixels.most:
         raise ValueError(f"{width} x {height} are more than {pixels.most:,} pixels{pixels.remedy}")
 
 
-def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> Found:
+def _read_coded(stream: BinaryIO, path: Path, pixels: InputLimit, codes: bool) -> ReadPicture:
     notes: list[str] = []
     # Pillow warns of what it can read all the same, such as a damaged date or 90 million pixels.
     with warnings.catch_warnings(action="ignore"), _opened(stream) as image:
@@ -148,7 +148,7 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> Fou
     if coding.matrix is not None:
         for part in parts_of(picture):
             part[:] = part @ coding.matrix.T.astype(np.float32)
-    return Found(upright(picture, turned), notes, white=1.0)
+    return ReadPicture(upright(picture, turned), notes, white=1.0)
 
 
 def _opened(stream: BinaryIO) -> Image:
@@ -221,8 +221,8 @@ def _is_deep_png(stream: BinaryIO) -> bool:
 
 
 def _read_linear(
-    stream: BinaryIO, path: Path, most: Bound, codes: bool, layer: str | None
-) -> Found:
+    stream: BinaryIO, path: Path, most: InputLimit, codes: bool, layer: str | None
+) -> ReadPicture:
     # OpenImageIO would try all its formats one after the other, which takes minutes with a large file.
     if not stream.read(max(map(len, MAGIC))).startswith(MAGIC):
         raise ValueError("it begins neither as EXR nor as HDR")
@@ -269,7 +269,7 @@ def _read_linear(
                 infinite = np.isinf(part).any(axis=2, keepdims=True)
                 turned = np.where(infinite, 0, part) @ matrix.T.astype(np.float32)
                 part[:] = np.where(infinite, np.inf, turned)
-    return Found(picture, notes)
+    return ReadPicture(picture, notes)
 
 
 def _open_linear(path: Path) -> tuple[ImageInput, ImageSpec]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from course.base.errors import SceneError
-from course.base.inputs import Bound
+from course.base.inputs import InputLimit
 from course.engine.core.types import Floats32
 from course.engine.formats.pictures.reading import read_picture
 from course.engine.formats.yaml.checking import convert
@@ -55,7 +55,7 @@ def load_description(path: Path, overrides: Overrides | None = None) -> Loaded:
     return Loaded(*parted(description, document, path.parent, bound), path)
 
 
-def bytes_of_files(document: Document) -> Bound:
+def bytes_of_files(document: Document) -> InputLimit:
     """The most bytes of a mesh or picture that a checked scene allows."""
     return _bound(document, "bytes")
 
@@ -77,6 +77,6 @@ def read_named_picture(
         raise document.error(path, str(error)) from error
 
 
-def _bound(document: Document, key: str) -> Bound:
+def _bound(document: Document, key: str) -> InputLimit:
     given = document.data.get("limits", {})
-    return Bound(given.get(key, getattr(LimitsDescription(), key)), f"limits.{key}")
+    return InputLimit(given.get(key, getattr(LimitsDescription(), key)), f"limits.{key}")

@@ -6,7 +6,7 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from course.base.errors import CourseWarning, GeometryError, SceneError
-from course.base.inputs import Bound
+from course.base.inputs import InputLimit
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.document import Document, show
 from course.engine.formats.yaml.suggestions import suggest
@@ -16,7 +16,7 @@ MOST_NAMES = 5
 
 
 def parted(
-    scene: d.SceneDescription, document: Document, folder: Path, bound: Bound
+    scene: d.SceneDescription, document: Document, folder: Path, bound: InputLimit
 ) -> tuple[d.SceneDescription, Document]:
     """Return the scene with an object for each material of a mesh, those after the first one behind all others.
 
@@ -67,7 +67,7 @@ def listed(names: list[str]) -> str:
 
 
 def _names(
-    thing: d.MeshFile, number: int, document: Document, folder: Path, bound: Bound
+    thing: d.MeshFile, number: int, document: Document, folder: Path, bound: InputLimit
 ) -> list[str]:
     """Names of materials that faces have, in the order of the file."""
     from course.engine.formats.meshes.files import read_named_mesh

@@ -21,7 +21,7 @@ from typing import Any, Final
 import yaml
 
 from course.base.errors import SceneError
-from course.base.inputs import LARGEST_SCENE, Bound, read_input, shown, text_of
+from course.base.inputs import LARGEST_SCENE, InputLimit, read_input, shown, text_of
 from course.engine.formats.yaml.document import LONGEST, Document, Key, Lines, show, spell
 from course.engine.functions.effects import CHECKOUT, begin
 
@@ -321,7 +321,7 @@ def parse_document(content: bytes, file: str, what: str = "scene") -> Document:
 
 def _read(path: Path, what: str) -> bytes:
     try:
-        return read_input(path, f"{what} file", Bound(LARGEST_SCENE), SceneError)
+        return read_input(path, f"{what} file", InputLimit(LARGEST_SCENE), SceneError)
     except SceneError as error:
         if isinstance(error.__cause__, FileNotFoundError):
             raise SceneError(f"{error}{_near(path)}") from None

@@ -54,7 +54,7 @@ DRIFT = 0.2
 
 
 @dataclass(frozen=True)
-class Sample:
+class AuditSample:
     """Pixels for an audit.
 
     Attributes
@@ -71,7 +71,7 @@ class Sample:
     samples: Numbers
 
 
-def draw(film: AdaptiveFilm, number: int, share: float) -> Sample | None:
+def draw(film: AdaptiveFilm, number: int, share: float) -> AuditSample | None:
     """Choose pixels for the audit of that number; None where the picture has too few samples yet to pay for one.
 
     What is drawn by chances p and costs c tells a sum of values x best where p is as sqrt(E x^2 / c).
@@ -101,7 +101,9 @@ def draw(film: AdaptiveFilm, number: int, share: float) -> Sample | None:
     rng = np.random.default_rng(number)
     where = np.searchsorted(np.cumsum(chance), rng.random(count)).clip(0, len(have) - 1)
     pixels, drawn = np.unique(where, return_counts=True)
-    return Sample(pixels.astype(np.intp), drawn.astype(np.float64), chance[pixels], samples[pixels])
+    return AuditSample(
+        pixels.astype(np.intp), drawn.astype(np.float64), chance[pixels], samples[pixels]
+    )
 
 
 def _pooled(film: AdaptiveFilm) -> Floats64:
@@ -117,7 +119,7 @@ def _pooled(film: AdaptiveFilm) -> Floats64:
     return pooled.reshape(-1).astype(np.float64)
 
 
-def work_for(sample: Sample, film: AdaptiveFilm, number: int, first: int) -> list[Work]:
+def work_for(sample: AuditSample, film: AdaptiveFilm, number: int, first: int) -> list[Work]:
     """Render the pixels of a sample a second time.
 
     Parameters
@@ -136,7 +138,7 @@ def work_for(sample: Sample, film: AdaptiveFilm, number: int, first: int) -> lis
     return work
 
 
-def judge(film: AdaptiveFilm, sample: Sample) -> None:
+def judge(film: AdaptiveFilm, sample: AuditSample) -> None:
     """Correct what the film tells, by the second pictures that it has now.
 
     The audit and what was told before it are two opinions, whose logarithms are averaged by their certainty.

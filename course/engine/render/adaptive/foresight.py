@@ -6,7 +6,7 @@ from course.engine.render.adaptive.bright import bright_things, parts_of
 from course.engine.render.adaptive.glimpses import FIRST, UNIMPORTANT, glimpses
 from course.engine.render.adaptive.prior import Prior
 from course.engine.render.adaptive.reflections import Reflections
-from course.engine.render.adaptive.seen_ahead import View, can_be_asked
+from course.engine.render.adaptive.seen_ahead import CameraAxes, can_be_asked
 from course.engine.render.adaptive.unbounded import unbounded
 from course.engine.render.job import Job
 from course.engine.scene.building.cameras import compile_camera
@@ -45,7 +45,7 @@ def foresee(job: Job, error: float) -> Foresight:
     camera = replace(
         compile_camera(loaded, job.scene.compiled.frame, width, height), lens=world.lens
     )
-    view = View.of(camera, world, width, height)
+    view = CameraAxes.of(camera, world, width, height)
     chances = glimpses(world, view, things, parts, target)
     reflections = Reflections(world, view, things, parts, target, settings.max_depth)
     chances += reflections.chances()

@@ -12,7 +12,7 @@ import numpy as np
 
 from course.engine.core.types import Floats64, Indices
 from course.engine.render.adaptive.bright import EVEN, Bright
-from course.engine.render.adaptive.seen_ahead import View, nearest
+from course.engine.render.adaptive.seen_ahead import CameraAxes, nearest
 from course.engine.terms.world import FullWorld
 
 SKETCH, FEWEST, MOST, ALL = 1024, 64, 16384, 65536
@@ -62,7 +62,7 @@ class Chances:
 
 
 def glimpses(
-    world: FullWorld, view: View, things: list[Bright], parts: Indices, target: float
+    world: FullWorld, view: CameraAxes, things: list[Bright], parts: Indices, target: float
 ) -> Chances:
     """The chances of all things that are seen directly; those are left out that every sketch finds.
 
@@ -90,7 +90,7 @@ def glimpses(
 
 
 def _put(
-    world: FullWorld, view: View, thing: Bright, count: int, parts: Indices | None
+    world: FullWorld, view: CameraAxes, thing: Bright, count: int, parts: Indices | None
 ) -> tuple[Indices, Floats64]:
     """Pixels (n,) that see points of a thing, and the share of each that a point stands for.
 

@@ -15,7 +15,7 @@ from course.engine.core.types import Floats64, Indices, Mask
 from course.engine.render.adaptive.bright import EVEN, Bright
 from course.engine.render.adaptive.glimpses import Chances, important, is_found
 from course.engine.render.adaptive.lobes_ahead import Onward, Surfaces, facets_density
-from course.engine.render.adaptive.seen_ahead import View, nearest
+from course.engine.render.adaptive.seen_ahead import CameraAxes, nearest
 from course.engine.terms.world import FullWorld
 
 BLOCKS = 8192
@@ -154,7 +154,7 @@ class Reflections:
     def __init__(
         self,
         world: FullWorld,
-        view: View,
+        view: CameraAxes,
         things: list[Bright],
         parts: Indices,
         target: float,

@@ -68,7 +68,12 @@ class Run(Protocol):
 
 
 def render_adaptively(
-    film: AdaptiveFilm, error: float, budget: int, groups: "Groups", run: Run, first: int = FIRST
+    film: AdaptiveFilm,
+    error: float,
+    budget: int,
+    groups: "RoundGroups",
+    run: Run,
+    first: int = FIRST,
 ) -> bool:
     """Add samples until the film's estimated error is at most ``error``; whether that was reached, or the budget spent.
 
@@ -93,7 +98,7 @@ class _Rounds:
     """The rounds of one render; parameters as in ``render_adaptively``."""
 
     def __init__(
-        self, film: AdaptiveFilm, error: float, budget: int, groups: "Groups", run: Run
+        self, film: AdaptiveFilm, error: float, budget: int, groups: "RoundGroups", run: Run
     ) -> None:
         self._film, self._error, self._budget = film, error, budget
         self._groups, self._run = groups, run
@@ -259,7 +264,7 @@ def _within(wanted: Numbers, have: Numbers, best: Floats32, budget: int) -> Numb
     return result
 
 
-class Groups:
+class RoundGroups:
     """Divides the pixels of a round into groups that are rendered at once.
 
     Parameters

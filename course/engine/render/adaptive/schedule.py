@@ -10,7 +10,7 @@ from course.engine.functions.effects import Bound
 from course.engine.render.adaptive.allocation import FIRST, FIRST_OF_NET
 from course.engine.render.adaptive.film import AdaptiveFilm
 from course.engine.render.adaptive.foresight import Foresight, foresee
-from course.engine.render.adaptive.rounds import ADAPTABLE, Groups, render_adaptively
+from course.engine.render.adaptive.rounds import ADAPTABLE, RoundGroups, render_adaptively
 from course.engine.render.job import Job, Mode
 from course.engine.terms.work import preview
 
@@ -44,7 +44,7 @@ class AdaptiveSchedule(Schedule):
                 return False
         budget = settings.samples * settings.width * settings.height
         batches = executor.batches(self._tracer.batches)
-        groups = Groups(settings.width, batches, executor.threads, self._tracer.smallest)
+        groups = RoundGroups(settings.width, batches, executor.threads, self._tracer.smallest)
         first = first_samples(settings.sampler)
         return render_adaptively(self._film, self._target, budget, groups, run, first)
 

@@ -17,7 +17,7 @@ from course.engine.terms.world import FullWorld
 
 
 @dataclass(frozen=True)
-class View:
+class CameraAxes:
     """A camera by its axes, in float64.
 
     Attributes
@@ -33,7 +33,7 @@ class View:
     velocity: Floats64
 
     @classmethod
-    def of(cls, camera: Camera, world: FullWorld, width: int, height: int) -> "View":
+    def of(cls, camera: Camera, world: FullWorld, width: int, height: int) -> "CameraAxes":
         """The view of a camera in a world."""
         axes = np.array((camera.right, camera.up, camera.forward), np.float64)
         moves = world.motion is not None and world.motion.camera_velocity is not None

@@ -29,7 +29,7 @@ _SIDES = ("x0", "y0", "x1", "y1")
 
 
 @dataclass(frozen=True)
-class Cells:
+class LevelCells:
     """Cells of one level.
 
     Attributes
@@ -41,12 +41,12 @@ class Cells:
     sides: Floats32
     pixel: Indices
 
-    def chosen(self, which: Mask) -> "Cells":
+    def chosen(self, which: Mask) -> "LevelCells":
         """Those of a mask (n,)."""
-        return Cells(self.sides[:, which], self.pixel[which])
+        return LevelCells(self.sides[:, which], self.pixel[which])
 
 
-class Functions:
+class SubdivisionFunctions:
     """The module's functions, with a look at what they return.
 
     Raises
@@ -69,7 +69,7 @@ class Functions:
         chosen: Mask = self._needs(corners, self._threshold)
         return chosen
 
-    def children(self, cells: Cells) -> Cells:
+    def children(self, cells: LevelCells) -> LevelCells:
         """Four for each cell."""
         assert self._subdivide is not None
         sides = np.stack(self._subdivide(*cells.sides))
@@ -85,7 +85,7 @@ class Functions:
                     f"{SUBDIVIDE}: {name} of child {child} is {side[child, cell]:.9g} in a cell from "
                     f"{low[cell]:.9g} to {high[cell]:.9g}, expected an end of the cell or its middle"
                 )
-        return Cells(sides.reshape(4, -1), np.tile(cells.pixel, 4))
+        return LevelCells(sides.reshape(4, -1), np.tile(cells.pixel, 4))
 
 
 class SubdivisionSchedule(Schedule):
@@ -98,7 +98,7 @@ class SubdivisionSchedule(Schedule):
     depth : how many times a pixel may be divided
     """
 
-    def __init__(self, film: CornerFilm, functions: Functions, depth: int) -> None:
+    def __init__(self, film: CornerFilm, functions: SubdivisionFunctions, depth: int) -> None:
         self._film = film
         self._functions = functions
         self._depth = depth
@@ -176,20 +176,20 @@ def make(job: Job, _tracer: Tracer, bound: Bound) -> tuple[CornerFilm, Subdivisi
     settings, rule = job.settings, job.settings.subdivision
     assert rule is not None
     film = CornerFilm(settings.width, settings.height, rule.depth, settings.samples)
-    return film, SubdivisionSchedule(film, Functions(bound, rule), rule.depth)
+    return film, SubdivisionSchedule(film, SubdivisionFunctions(bound, rule), rule.depth)
 
 
 SUBDIVISION = Mode(make, check, BYTES_A_PIXEL, "a picture by subdivision")
 
 
-def _pixels(width: int, height: int) -> Cells:
+def _pixels(width: int, height: int) -> LevelCells:
     """Each pixel as a cell."""
     y, x = np.divmod(np.arange(width * height), width)
     sides = np.stack((x, y, x + 1, y + 1)).astype(np.float32)
-    return Cells(sides, np.arange(width * height))
+    return LevelCells(sides, np.arange(width * height))
 
 
-def _add(total: Floats64, cells: Cells, radiance: Floats32) -> None:
+def _add(total: Floats64, cells: LevelCells, radiance: Floats32) -> None:
     """Add cells to their pixels (3, P): the mean of the corners (3, 4, n), by area."""
     x0, y0, x1, y1 = cells.sides.astype(np.float64)
     area = 0.25 * (x1 - x0) * (y1 - y0)

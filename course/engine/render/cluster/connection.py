@@ -15,7 +15,7 @@ from typing import Any
 from course.base.errors import CourseError
 from course.engine.render.threads import TICK
 
-PATIENCE = 10
+ANSWER_WITHIN = 10
 """Seconds in which a scheduler must answer, and a worker be there."""
 
 ALONE = 60
@@ -160,13 +160,15 @@ def _connect(address: str) -> tuple[Any, Any]:
         # Where somebody else listens, a client would wait for ever. The thread is for notebooks, which have a loop.
         with ThreadPoolExecutor(1) as thread:
             thread.submit(asyncio.run, _ask(distributed, address)).result()
-        client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
+        client = distributed.Client(address, timeout=ANSWER_WITHIN, set_as_default=False)
     except (OSError, ValueError) as error:
         raise CourseError(
-            f"{address}: no dask scheduler answered within {PATIENCE} s: {error}".removesuffix(": ")
+            f"{address}: no dask scheduler answered within {ANSWER_WITHIN} s: {error}".removesuffix(
+                ": "
+            )
         ) from error
     try:
-        client.wait_for_workers(1, timeout=PATIENCE)
+        client.wait_for_workers(1, timeout=ANSWER_WITHIN)
     except (OSError, TimeoutError) as error:
         client.close(timeout=2)
         raise CourseError(f"{address}: the scheduler has no workers; start some") from error
@@ -175,5 +177,8 @@ def _connect(address: str) -> tuple[Any, Any]:
 
 async def _ask(distributed: Any, address: str) -> None:
     """Raise OSError, TimeoutError among them, or ValueError where no scheduler answers."""
-    async with asyncio.timeout(PATIENCE), distributed.rpc(address, timeout=PATIENCE) as scheduler:
+    async with (
+        asyncio.timeout(ANSWER_WITHIN),
+        distributed.rpc(address, timeout=ANSWER_WITHIN) as scheduler,
+    ):
         await scheduler.identity()

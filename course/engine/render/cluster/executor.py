@@ -20,9 +20,9 @@ from course.engine.core.counters import Counters
 from course.engine.core.tiles import Work
 from course.engine.core.types import Floats32
 from course.engine.render.cluster.connection import Connection, arrived
-from course.engine.render.cluster.parcel import KeptScenes, Order, Parcel, edition, pack
+from course.engine.render.cluster.parcel import KeptScenes, Parcel, WorkOrder, edition, pack
 from course.engine.render.threads import Execution, InOrder, ThreadedExecutor
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 
 PIECE = 0.3
 """Seconds of work in a task: a hundred times what it costs to hand it over, and little to wait for in the end."""
@@ -56,10 +56,10 @@ class Cluster(ThreadedExecutor):
     packets : whether workers shall use compiled loops where they have them
     """
 
-    def __init__(self, address: str, scene: Scene, settings: Settings, packets: bool) -> None:
+    def __init__(self, address: str, scene: Scene, settings: SceneSettings, packets: bool) -> None:
         # A thread of its own, so that Ctrl-C can't come in the middle of adding to the film.
         super().__init__(servers=1, grace=GRACE)
-        self._order = Order(settings, packets, edition())
+        self._order = WorkOrder(settings, packets, edition())
         try:
             parcel = pack(scene)
         except OSError as error:
@@ -149,7 +149,9 @@ class Cluster(ThreadedExecutor):
         self.counters.lap("film")
 
 
-def render_piece(parcel: Parcel, order: Order, piece: list[Work]) -> tuple[list[Result], Counters]:
+def render_piece(
+    parcel: Parcel, order: WorkOrder, piece: list[Work]
+) -> tuple[list[Result], Counters]:
     """On a worker: colours and weights of each tile of a piece, and what they have cost."""
     tracer = _kept.tracer(parcel, order)
     counters = Counters()

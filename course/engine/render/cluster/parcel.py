@@ -28,7 +28,7 @@ from course.engine.loops.library import available as packets_available
 from course.engine.render.binding import bind
 from course.engine.render.memory import keep_freed_memory
 from course.engine.scene.building.world import compile_scene
-from course.engine.scene.scene import Scene, Settings
+from course.engine.scene.scene import Scene, SceneSettings
 
 EFFECTS = "effects"
 """Folder of the functions where a parcel is unpacked."""
@@ -114,7 +114,7 @@ MOST = 2
 
 
 @dataclass(frozen=True)
-class Order:
+class WorkOrder:
     """The work that is to be done with the scene of a parcel.
 
     Attributes
@@ -124,7 +124,7 @@ class Order:
     edition : of the course that gave the order; see `edition`
     """
 
-    settings: Settings
+    settings: SceneSettings
     packets: bool
     edition: str
 
@@ -153,7 +153,7 @@ class KeptScenes:
         self._lock = threading.Lock()
         self._kept: OrderedDict[str, _Kept] = OrderedDict()
 
-    def tracer(self, parcel: Parcel, order: Order) -> Tracer:
+    def tracer(self, parcel: Parcel, order: WorkOrder) -> Tracer:
         """The scene of a parcel bound to these settings; compiled if this is the first time.
 
         Raises CourseError when this process runs another edition of the course than who gave the order.
@@ -191,9 +191,9 @@ class _Kept:
         # Modules of functions are imported when a render needs them, so the folder stays.
         self.folder = TemporaryDirectory(prefix="course-", ignore_cleanup_errors=True)
         self._scene: Scene = unpack(parcel.content, Path(self.folder.name))
-        self._last: tuple[Order, Tracer] | None = None
+        self._last: tuple[WorkOrder, Tracer] | None = None
 
-    def tracer(self, order: Order) -> Tracer:
+    def tracer(self, order: WorkOrder) -> Tracer:
         if self._last is None or self._last[0] != order:
             compiled = order.packets and packets_available()
             self._last = order, bind(self._scene, order.settings, compiled=compiled)

@@ -29,8 +29,8 @@ from course.engine.scene.building.slicing import sliced, too_thin
 from course.engine.scene.building.triangles import (
     NEAR,
     TOO_LARGE,
+    SharedTriangles,
     SmallThings,
-    Triangles,
     ends_of,
     largest,
     nearest_of,
@@ -40,17 +40,17 @@ from course.engine.terms.surfaces.painting import Paint
 from course.engine.terms.surfaces.surface import FullPart
 
 
-def undivided(vertices: Floats64, corners: Indices) -> Triangles:
+def undivided(vertices: Floats64, corners: Indices) -> SharedTriangles:
     """Triangles as they come from a mesh, their longest edges next."""
     p = vertices[corners]
     edges = np.linalg.norm(np.roll(p, -1, axis=1) - p, axis=2)
     # Edges that are equally long to rounding: of two triangles of a square both take the diagonal, or neither.
     first = (edges > edges.max(axis=1, keepdims=True) * (1 - 1e-6)).argmax(axis=1)
     turned = corners[np.arange(len(corners))[:, None], (first[:, None] + np.arange(3)) % 3]
-    return Triangles(vertices, turned, np.arange(len(corners)))
+    return SharedTriangles(vertices, turned, np.arange(len(corners)))
 
 
-def bisected(triangles: Triangles, chosen: Mask) -> Triangles:
+def bisected(triangles: SharedTriangles, chosen: Mask) -> SharedTriangles:
     """Halve the chosen triangles, and those that have to be halved with them.
 
     ``chosen``: (T,) bool.
@@ -72,7 +72,7 @@ def bisected(triangles: Triangles, chosen: Mask) -> Triangles:
     a, b = triangles.vertices[ends[halved]].transpose(1, 0, 2)
     vertices = np.concatenate((triangles.vertices, a / 2 + b / 2))
     parts = _halves(corners, middle[edge], triangles.origin)
-    return Triangles(vertices, np.concatenate(parts[0]), np.concatenate(parts[1]))
+    return SharedTriangles(vertices, np.concatenate(parts[0]), np.concatenate(parts[1]))
 
 
 def _halves(
@@ -160,7 +160,7 @@ def _too_large(p: Floats64, things: SmallThings, ratio: float) -> Mask:
     return large
 
 
-def _cut(whole: Triangles, things: SmallThings, ratio: float) -> Triangles:
+def _cut(whole: SharedTriangles, things: SmallThings, ratio: float) -> SharedTriangles:
     """All triangles, those that are too large in pieces, and those that have to be halved with them."""
     corners = whole.corners
     # Triangles with two equal corners have no area in float32, and are ignored.
@@ -185,7 +185,7 @@ def _cut(whole: Triangles, things: SmallThings, ratio: float) -> Triangles:
         if not touched.any():
             break
         inside[outside[touched]] = True
-    return Triangles(
+    return SharedTriangles(
         pieces.vertices,
         np.concatenate((corners[~inside], pieces.corners)),
         np.concatenate((whole.origin[~inside], whole.origin[numbers[pieces.origin]])),

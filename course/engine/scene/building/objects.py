@@ -7,10 +7,10 @@ import msgspec
 import numpy as np
 
 from course.base.errors import CourseWarning, GeometryError, SceneError
-from course.base.inputs import Bound
+from course.base.inputs import InputLimit
 from course.engine import shapes
 from course.engine.formats.meshes import transforms
-from course.engine.formats.meshes.named import Named
+from course.engine.formats.meshes.named import NamedMesh
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.document import Document, show
 from course.engine.formats.yaml.loading import bytes_of_files
@@ -27,7 +27,7 @@ def object_mesh(
     number: int,
     document: Document,
     folder: Path,
-    files: dict[str, Named] | None = None,
+    files: dict[str, NamedMesh] | None = None,
 ) -> Mesh:
     """The mesh of one object, transformed.
 
@@ -52,7 +52,7 @@ def object_mesh(
 
 
 def _local_mesh(
-    thing: d.Object, where: str, folder: Path, files: dict[str, Named], bound: Bound
+    thing: d.Object, where: str, folder: Path, files: dict[str, NamedMesh], bound: InputLimit
 ) -> Mesh:
     if isinstance(thing, d.MeshFile):
         # The readers are many; a scene of named shapes never imports them.
@@ -77,7 +77,7 @@ def _local_mesh(
     return mesh
 
 
-def _only(thing: d.MeshFile, found: Named) -> Mesh:
+def _only(thing: d.MeshFile, found: NamedMesh) -> Mesh:
     """The faces of some of a file's materials; GeometryError where it hasn't one of them."""
     assert thing.only is not None
     for name in thing.only:

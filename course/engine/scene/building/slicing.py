@@ -16,8 +16,8 @@ from course.engine.core.types import Floats64, Indices, Mask
 from course.engine.scene.building.triangles import (
     NEAR,
     TOO_LARGE,
+    SharedTriangles,
     SmallThings,
-    Triangles,
     ends_of,
     largest,
     nearest_of,
@@ -44,12 +44,12 @@ def too_thin(p: Floats64, things: SmallThings, ratio: float = TOO_LARGE) -> Mask
     return found
 
 
-def sliced(vertices: Floats64, corners: Indices, things: SmallThings) -> Triangles:
+def sliced(vertices: Floats64, corners: Indices, things: SmallThings) -> SharedTriangles:
     """Triangles with corners (T, 3), most of them whole, and pieces of those that are too thin."""
     thin = np.flatnonzero(too_thin(vertices[corners], things))
     none = np.arange(len(corners))
     if len(thin) == 0:
-        return Triangles(vertices, corners, none)
+        return SharedTriangles(vertices, corners, none)
     pairs = np.sort(np.stack((corners, np.roll(corners, -1, axis=1)), axis=2), axis=2)
     ends, edge = np.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
     edge = edge.reshape(-1, 3)
@@ -87,7 +87,7 @@ def sliced(vertices: Floats64, corners: Indices, things: SmallThings) -> Triangl
         )
         found.append(pieces)
         origin.append(np.full(len(pieces), k))
-    return Triangles(vertices, np.concatenate(found), np.concatenate(origin))
+    return SharedTriangles(vertices, np.concatenate(found), np.concatenate(origin))
 
 
 def _divided(

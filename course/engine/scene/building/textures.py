@@ -10,7 +10,7 @@ import numpy as np
 from course.base.errors import CourseWarning
 from course.engine.core.types import Floats32, Floats64
 from course.engine.formats.meshes import transforms
-from course.engine.formats.meshes.named import Named
+from course.engine.formats.meshes.named import NamedMesh
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.description import TextureDescription, rgb
 from course.engine.formats.yaml.document import KeyPath
@@ -67,7 +67,9 @@ class Painter:
     ``files``: mesh files that have been read, by their normals and names in the scene; ``scale``: that of the frame.
     """
 
-    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Named], scale: float) -> None:
+    def __init__(
+        self, loaded: Loaded, bound: Bound, files: dict[str, NamedMesh], scale: float
+    ) -> None:
         self._loaded = loaded
         self._scale = scale
         self._bound = bound
@@ -114,10 +116,10 @@ class Painter:
 
     def _noise(self, described: d.NoiseDescription, number: int, mesh: Mesh) -> Paint:
         """Noise in an object's coordinates before its transformations."""
-        from course.engine.terms.surfaces.perlin import Noise
+        from course.engine.terms.surfaces.perlin import PerlinNoise
 
         corners = self._still(number).vertices[mesh.triangles] * described.scale
-        return Paint(corners, Noise(described.conversion))
+        return Paint(corners, PerlinNoise(described.conversion))
 
     def relief(self, number: int, mesh: Mesh) -> Paint | None:
         """The normal map or the bump map of an object; None where it has none.

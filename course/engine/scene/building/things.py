@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.engine.core.types import Floats64
-from course.engine.formats.meshes.named import Named
+from course.engine.formats.meshes.named import NamedMesh
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.loading import Loaded
 from course.engine.scene.building.frame import bounds_of
@@ -29,7 +29,7 @@ class Things:
     described: tuple[d.Object, ...]
     meshes: tuple[Mesh, ...]
     bounds: tuple[Floats64, ...]
-    files: dict[str, Named]
+    files: dict[str, NamedMesh]
     shutter: Shutter
 
     @property
@@ -51,7 +51,7 @@ def read_things(loaded: Loaded) -> Things:
     meshes: list[Mesh] = []
     bounds: list[Floats64] = []
     starts: list[Floats64] = []
-    files: dict[str, Named] = {}
+    files: dict[str, NamedMesh] = {}
     objects = loaded.description.objects
     for number, thing in enumerate(objects):
         mesh = object_mesh(thing, number, loaded.document, loaded.path.parent, files)

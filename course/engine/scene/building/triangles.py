@@ -23,7 +23,7 @@ FLAT = 2.0**-24
 
 
 @dataclass(frozen=True)
-class Triangles:
+class SharedTriangles:
     """Triangles over shared vertices.
 
     Attributes

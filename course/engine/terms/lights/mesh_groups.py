@@ -40,7 +40,7 @@ _LEAST = CLOSEST * CLOSEST
 
 
 @dataclass(frozen=True)
-class Groups:
+class TriangleGroups:
     """G groups of T triangles.
 
     Attributes
@@ -125,7 +125,7 @@ class Groups:
         return strength
 
 
-def make_groups(shares: Floats32, planes: Floats32, edges: Floats32) -> Groups:
+def make_groups(shares: Floats32, planes: Floats32, edges: Floats32) -> TriangleGroups:
     """Groups of T triangles.
 
     Parameters
@@ -153,7 +153,7 @@ def make_groups(shares: Floats32, planes: Floats32, edges: Floats32) -> Groups:
     ).T
     moments[:3] += center[:, None]
     outside = np.sign((dot(middle, normal) * share).sum())
-    return Groups(
+    return TriangleGroups(
         triangle,
         ends[:-1].astype(np.float32),
         np.diff(bounds),
@@ -203,7 +203,7 @@ def _mean(values: Floats64, share: Floats64) -> Floats64:
 
 
 def _moments(corners: Floats64, normal: Floats64, share: Floats64) -> Floats64:
-    """A column of ``Groups.moments`` from corners (3, 3, t), each a (3, t), normals (3, t) and shares (t,)."""
+    """A column of ``TriangleGroups.moments`` from corners (3, 3, t), each a (3, t), normals (3, t) and shares (t,)."""
     middle = corners.mean(axis=0)
     center, facing = _mean(middle, share), _mean(normal, share)
     # Mean square of a triangle's points: a twelfth of the sum of its corners' squares and nine times its centre's.

@@ -13,7 +13,7 @@ import numpy as np
 from course.engine.core.lights.sample import TO_A_POINT, Light, Sample, inverse_square
 from course.engine.core.types import Floats32, Floats64
 from course.engine.core.vectors import cross, dot, gather
-from course.engine.terms.lights.mesh_groups import Groups, make_groups
+from course.engine.terms.lights.mesh_groups import TriangleGroups, make_groups
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class MeshLight(Light):
     width: int = 3
     velocity: Floats32 | None = None
     limit: float = TO_A_POINT
-    groups: Groups = field(init=False, repr=False)
+    groups: TriangleGroups = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         # Not for the first sample: every thread that takes one then would make them, each its own.

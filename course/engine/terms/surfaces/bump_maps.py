@@ -11,7 +11,7 @@ import numpy as np
 from course.engine.core.types import Floats32
 from course.engine.core.vectors import cross, dot
 from course.engine.terms.surfaces.normal_maps import NormalMap
-from course.engine.terms.surfaces.perlin import Noise, between
+from course.engine.terms.surfaces.perlin import PerlinNoise, between
 
 STEP = np.float32(1 / 64)
 """Of a grain of noise: how far on both sides of a place it is compared."""
@@ -55,7 +55,7 @@ class PictureHeights:
 class NoiseHeights:
     """Perlin's noise at the places that corners carry."""
 
-    noise: Noise
+    noise: PerlinNoise
 
     def changes(self, weights: Floats32, corners: Floats32) -> tuple[Floats32, Floats32]:
         """See ``Heights``."""

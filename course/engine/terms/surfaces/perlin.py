@@ -47,7 +47,7 @@ def noise(x: Floats32) -> Floats32:
 
 
 @dataclass(frozen=True)
-class Noise:
+class PerlinNoise:
     """Grey values of noise at places that the corners of triangles carry.
 
     ``conversion``: "linear" for (noise + 1) / 2, "absolute" for |noise|

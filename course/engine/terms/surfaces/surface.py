@@ -18,7 +18,7 @@ from course.engine.terms.surfaces.hierarchy import HierarchyAccelerator
 from course.engine.terms.surfaces.painting import Paint, Painting, make_painting
 from course.engine.terms.surfaces.tables import (
     Part,
-    Tables,
+    PartTables,
     accelerate,
     join_tables,
     make_tables,
@@ -202,13 +202,13 @@ def build_surface(
     )
 
 
-def _paint(table: Tables, key: str = "paint") -> Paint | None:
+def _paint(table: PartTables, key: str = "paint") -> Paint | None:
     """The paint of the triangles that have an area, or their normal map by its key."""
     paint: Paint | None = getattr(table.part, key, None)
     return None if paint is None else Paint(paint.corners[table.kept], paint.color_at)
 
 
-def _relief(tables: Sequence[Tables]) -> Any:
+def _relief(tables: Sequence[PartTables]) -> Any:
     """The normal maps of all triangles, None where there are none; their module is loaded with them alone."""
     maps = make_painting([(len(table.triangles), _paint(table, "relief")) for table in tables])
     if maps is None:
@@ -218,17 +218,17 @@ def _relief(tables: Sequence[Tables]) -> Any:
     return Relief(maps)
 
 
-def _behind(table: Tables) -> Behind:
+def _behind(table: PartTables) -> Behind:
     return table.part.behind if isinstance(table.part, FullPart) else "turned"
 
 
-def _seen(tables: Sequence[Tables], behind: Behind) -> Mask | None:
+def _seen(tables: Sequence[PartTables], behind: Behind) -> Mask | None:
     """(T,) bool, triangles whose backs are seen in that way; None if there are none."""
     kinds = [np.full(len(table.triangles), _behind(table) == behind) for table in tables]
     return np.concatenate(kinds) if any(kind.any() for kind in kinds) else None
 
 
-def _hidden(table: Tables, camera_position: Floats64 | None) -> Mask:
+def _hidden(table: PartTables, camera_position: Floats64 | None) -> Mask:
     """(T,) bool, triangles that are seen through from a camera's position (3,); none if it is None."""
     if camera_position is None or _behind(table) != "unseen":
         return np.zeros(len(table.triangles), np.bool_)

@@ -81,7 +81,7 @@ class Rows:
 
 
 @dataclass(frozen=True)
-class Tables:
+class PartTables:
     """One part's share of ``Triangles``.
 
     Attributes
@@ -99,7 +99,7 @@ class Tables:
     largest_raised: float
 
 
-def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> tuple[list[Tables], Rows]:
+def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> tuple[list[PartTables], Rows]:
     """Tables of all parts, static ones first, then moving ones sorted by velocity, and the rows of all.
 
     Triangles without area in float32 are left out: no ray can hit them. Coordinates lie in about [-1, 1].
@@ -110,14 +110,14 @@ def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> tuple[list[
     if not ordered:
         ordered = [Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0)]
     rows = Rows.empty(sum(len(part.mesh.triangles) for part in ordered), smooth)
-    tables, count = list[Tables](), 0
+    tables, count = list[PartTables](), 0
     for part in ordered:
         tables.append(_tables(part, rows[count:], smooth, least_offset))
         count += len(tables[-1].triangles)
     return tables, rows[:count]
 
 
-def join_tables(tables: Sequence[Tables], rows: Rows, bulges: bool = True) -> Triangles:
+def join_tables(tables: Sequence[PartTables], rows: Rows, bulges: bool = True) -> Triangles:
     """The triangles of all parts; without ``bulges``, shadow rays start from the flat triangles."""
     smooth = any(t.part.mesh.normals is not None for t in tables)
     counts = [len(t.triangles) for t in tables]
@@ -134,9 +134,9 @@ def join_tables(tables: Sequence[Tables], rows: Rows, bulges: bool = True) -> Tr
     )
 
 
-def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -> Accelerator:
+def accelerate(tables: Sequence[PartTables], motion_blur: Functions | None = None) -> Accelerator:
     """One BVH for all static parts, and one for each velocity of moving parts, which need ``motion_blur``."""
-    groups: dict[Velocity, list[Tables]] = {STILL: []}
+    groups: dict[Velocity, list[PartTables]] = {STILL: []}
     for table in tables:
         groups.setdefault(table.part.velocity, []).append(table)
     static = static_accelerator(*vertices_and_triangles(groups.pop(STILL)))
@@ -148,7 +148,7 @@ def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -
     return kind(static, tuple(_movers(groups, tables)), Motion(motion_blur))
 
 
-def vertices_and_triangles(tables: Sequence[Tables]) -> tuple[Floats32, Numbers]:
+def vertices_and_triangles(tables: Sequence[PartTables]) -> tuple[Floats32, Numbers]:
     """Vertices (V, 3) and triangles (T, 3) of several parts."""
     if len(tables) == 1:
         return tables[0].vertices, tables[0].triangles
@@ -160,7 +160,9 @@ def vertices_and_triangles(tables: Sequence[Tables]) -> tuple[Floats32, Numbers]
     return np.concatenate([table.vertices for table in tables]), triangles
 
 
-def _movers(groups: dict[Velocity, list[Tables]], tables: Sequence[Tables]) -> Iterator[Mover]:
+def _movers(
+    groups: dict[Velocity, list[PartTables]], tables: Sequence[PartTables]
+) -> Iterator[Mover]:
     """Movers in the order of their triangles, which follow the static ones."""
     moving = sum(len(table.triangles) for group in groups.values() for table in group)
     first = sum(len(table.triangles) for table in tables) - moving
@@ -171,7 +173,7 @@ def _movers(groups: dict[Velocity, list[Tables]], tables: Sequence[Tables]) -> I
         first = last
 
 
-def _tables(part: Part, rows: Rows, smooth: bool, least_offset: float) -> Tables:
+def _tables(part: Part, rows: Rows, smooth: bool, least_offset: float) -> PartTables:
     """Tables of a part, whose rows are the first of ``rows``."""
     mesh = part.mesh
     # Rounded to float32 once, so that every number below agrees with Embree's vertices.
@@ -195,7 +197,7 @@ def _tables(part: Part, rows: Rows, smooth: bool, least_offset: float) -> Tables
     numbers = np.concatenate(kept)
     triangles = mesh.triangles if count == len(mesh.triangles) else mesh.triangles[numbers]
     whole = triangles.astype(np.int32, copy=False)
-    return Tables(part, numbers, vertices, whole, rows[:count], *largest)
+    return PartTables(part, numbers, vertices, whole, rows[:count], *largest)
 
 
 def _fill(
@@ -208,7 +210,7 @@ def _fill(
     smooth: bool,
     least_offset: float,
 ) -> tuple[float, float]:
-    """Fill the rows of T triangles; returns ``largest_sine`` and ``largest_raised`` of ``Tables``.
+    """Fill the rows of T triangles; returns ``largest_sine`` and ``largest_raised`` of ``PartTables``.
 
     Parameters
     ----------

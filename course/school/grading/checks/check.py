@@ -85,7 +85,7 @@ class Trial:
     references : arrays that ``Check.prepare`` made with the reference solution
     figures : what the check has shown so far
     notes : what the student should know though nothing is wrong
-    yardstick : the reference solution in a worker of its own, to compare times with; None where there is no solution
+    reference_caller : the solution in a worker of its own, to compare times with; None where there is none
     """
 
     function: str
@@ -94,7 +94,7 @@ class Trial:
     references: Mapping[str, Array] = field(default_factory=dict)
     figures: list[Figure] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    yardstick: Caller | None = None
+    reference_caller: Caller | None = None
 
     def call(self, *arguments: Any, **named: Any) -> Any:
         """Call the function that the check is about."""

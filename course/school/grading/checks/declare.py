@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from course.engine.functions.contracts import Result, parsed
+from course.engine.functions.contracts import ResultContract, parsed
 from course.engine.functions.modules import COURSE
 from course.engine.functions.signatures import CONTRACTS
 from course.school.grading.checks.check import Array, Failure, Kind, Role, Trial
@@ -187,7 +187,7 @@ class Function:
 
     name: str
     arguments: tuple[Argument, ...]
-    results: tuple[Result, ...]
+    results: tuple[ResultContract, ...]
     laws: tuple[Law, ...]
     case: Case | None = None
     corners: tuple[Callable[[Any], Mapping[str, Any]], ...] = ()
@@ -363,7 +363,7 @@ _NUMBERS = {"int": "iu", "floating": "f"}
 
 
 def _looked(
-    value: Any, result: Result, sizes: dict[str, int], dtype: Any, batches: Sequence[str]
+    value: Any, result: ResultContract, sizes: dict[str, int], dtype: Any, batches: Sequence[str]
 ) -> Array:
     if not result.sizes and not isinstance(value, np.ndarray):
         value = _number(value, result)
@@ -412,7 +412,7 @@ def _cast(batches: Sequence[str]) -> str:
     )
 
 
-def _number(value: Any, result: Result) -> Any:
+def _number(value: Any, result: ResultContract) -> Any:
     if isinstance(value, bool | np.bool_) or not isinstance(
         value, int | float | np.integer | np.floating
     ):

@@ -15,7 +15,7 @@ from course.school.grading.checks.check import Caller, Check
 from course.school.grading.checks.result import Result, Status
 from course.school.grading.errors import StudentError
 
-Lenders = Callable[[str], Caller | None]
+Substitutes = Callable[[str], Caller | None]
 """function -> the same student's module, with the reference's in place of the functions that come before it."""
 
 Outcome = tuple[Result, StudentError | None]
@@ -28,21 +28,21 @@ class Lending:
 
     Parameters
     ----------
-    attempt : (check, caller, yardstick) -> how it ended
+    attempt : (check, caller, reference_caller) -> how it ended
     caller : of the student's functions alone
-    yardstick : the reference, to compare times with
-    lenders : who is asked again
+    reference_caller : the reference, to compare times with
+    substitutes : who is asked again
     """
 
     def __init__(
         self,
         attempt: Callable[[Check, Caller, Caller | None], Outcome],
         caller: Caller,
-        yardstick: Caller | None,
-        lenders: Lenders,
+        reference_caller: Caller | None,
+        substitutes: Substitutes,
     ) -> None:
-        self._attempt, self._caller, self._yardstick = attempt, caller, yardstick
-        self._lenders = lenders
+        self._attempt, self._caller, self._reference_caller = attempt, caller, reference_caller
+        self._substitutes = substitutes
         self._passed: defaultdict[str, list[Check]] = defaultdict(list)
         self._lent: dict[str, bool] = {}
 
@@ -59,7 +59,7 @@ class Lending:
         lent = self._with_reference(check) if decided or (lent_first and decided is None) else None
         if lent and (decided or self._settled(check, lent)):
             return lent
-        result, error = self._attempt(check, self._caller, self._yardstick)
+        result, error = self._attempt(check, self._caller, self._reference_caller)
         if result.status is Status.PASSED:
             self._passed[function].append(check)
             return result, error, self._caller
@@ -81,12 +81,12 @@ class Lending:
 
     def _with_reference(self, check: Check) -> tuple[Result, StudentError | None, Caller] | None:
         """How it ends with the reference's functions above; None where no function comes before."""
-        lender = self._lenders(check.function)
-        if lender is None:
+        substitute = self._substitutes(check.function)
+        if substitute is None:
             return None
-        result, error = self._attempt(check, lender, None)
+        result, error = self._attempt(check, substitute, None)
         hint = STANDS_ON if result.status is Status.PASSED else result.hint
-        return replace(result, hint=hint), error, lender
+        return replace(result, hint=hint), error, substitute
 
     def _settled(self, check: Check, lent: tuple[Result, StudentError | None, Caller]) -> bool:
         """Settle beside whose functions this one is judged, if the check has passed there: true for the reference's."""

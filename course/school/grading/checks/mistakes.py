@@ -25,7 +25,7 @@ from course.school.grading.checks.declare import Arguments, Function
 from course.school.grading.checks.drawing import Draw
 from course.school.grading.checks.laws import exact
 from course.school.grading.errors import StudentError
-from course.school.grading.known import Known, known, trusted
+from course.school.grading.known import KnownSubmission, known, trusted
 from course.school.grading.modules.generators import drawn
 
 PROBED = 24
@@ -386,7 +386,7 @@ def _packed(arrays: Mapping[str, Array]) -> bytes:
     return file.getvalue()
 
 
-def _print(function: Function, one: Known) -> dict[str, Array]:
+def _print(function: Function, one: KnownSubmission) -> dict[str, Array]:
     # Some draw numbers of their own: other ones in each call, but the same course gives the same bytes.
     draw, seeds = np.random.default_rng, count()
     seeded = patch(

@@ -28,7 +28,7 @@ from course.school.grading.checks.check import (
 )
 from course.school.grading.checks.closer import CloserLook
 from course.school.grading.checks.declare import declaration, unstacked
-from course.school.grading.checks.lending import Lenders, Lending, Outcome
+from course.school.grading.checks.lending import Lending, Outcome, Substitutes
 from course.school.grading.checks.mistakes import SLIPS
 from course.school.grading.checks.remedies import column_of, of_count, of_no_use, of_shape
 from course.school.grading.checks.result import (
@@ -54,22 +54,22 @@ def run_checks(
     references: References,
     seed: int,
     only: Callable[[Check], bool] | None = None,
-    yardstick: Caller | None = None,
-    lenders: Lenders = lambda _: None,
+    reference_caller: Caller | None = None,
+    substitutes: Substitutes = lambda _: None,
     standard: Standard | None = None,
 ) -> Iterator[Result]:
     """Results in the order of the checks, each as soon as it is there.
 
     Parameters
     ----------
-    yardstick : the reference, to compare times with
-    lenders : who is asked again when a check fails, so that a function pays for no other function's mistake
+    reference_caller : the reference, to compare times with
+    substitutes : who is asked again when a check fails, so that a function pays for no other function's mistake
     standard : the reference in this process, for checks that break; None where there is no solution
     """
     given_up: dict[str, Result] = {}
     by_cause: dict[tuple[str, str], str] = {}
     attempt = partial(_attempt, checks.module, references=references, seed=seed, standard=standard)
-    lending = Lending(attempt, caller, yardstick, lenders)
+    lending = Lending(attempt, caller, reference_caller, substitutes)
     closer = cache(partial(CloserLook, checks, references, seed, partial(Gate, checks.module)))
     for check in filter(only, checks.checks):
         if check.function in given_up:
@@ -87,7 +87,7 @@ def run_checks(
         if result.status in (Status.TIMEOUT, Status.NOT_ATTEMPTED):
             given_up[check.function] = result
         if result.status is Status.FAILED:
-            result = closer().at(result, check, asked, alone=lenders(check.function) is None)
+            result = closer().at(result, check, asked, alone=substitutes(check.function) is None)
         if error is not None:
             first_id = by_cause.setdefault((check.function, error.cause), result.id)
             if first_id != result.id:
@@ -102,14 +102,16 @@ def _attempt(
     module: str,
     check: Check,
     caller: Caller,
-    yardstick: Caller | None,
+    reference_caller: Caller | None,
     *,
     references: References,
     seed: int,
     standard: Standard | None,
 ) -> Outcome:
     def trial_of(whose: Caller) -> Trial:
-        return Trial(check.function, whose, generator(seed, module, check), yardstick=yardstick)
+        return Trial(
+            check.function, whose, generator(seed, module, check), reference_caller=reference_caller
+        )
 
     # It may be that memory or disk were short: once more tells.
     for _ in range(2):

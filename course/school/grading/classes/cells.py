@@ -68,7 +68,7 @@ class Statement:
 
 
 @dataclass
-class Cells:
+class NotebookCode:
     """All of a notebook's code.
 
     Attributes
@@ -87,13 +87,13 @@ class Cells:
         self.told.append(f"cell {cell}, line {line}: {why}")
 
 
-def read_cells(content: bytes) -> Cells:
+def read_cells(content: bytes) -> NotebookCode:
     """Read a notebook of any format since 3; raises one of ``NO_NOTEBOOK`` for what is none, or none of Python."""
     notebook = json.loads(content)
     language = notebook.get("metadata", {}).get("kernelspec", {}).get("language", "python")
     if str(language).lower() not in ("python", "python3"):
         raise ValueError(f"its language is {language}")
-    found = Cells()
+    found = NotebookCode()
     for number, source in _sources(notebook):
         _read(source.replace("\r\n", "\n").replace("\r", "\n"), number, 0, found)
     return found
@@ -109,7 +109,7 @@ def _sources(notebook: dict[str, Any]) -> Iterator[tuple[int, str]]:
             yield number, source if isinstance(source, str) else "".join(source)
 
 
-def _read(text: str, cell: int, above: int, found: Cells, depth: int = 0) -> None:
+def _read(text: str, cell: int, above: int, found: NotebookCode, depth: int = 0) -> None:
     """Add the statements of a cell, or of the text below its magic, which has so many lines above it."""
     # Blank lines at the beginning are no part of what IPython gives back.
     blank = len(text) - len(re.sub(r"\A(?:[ \t\f]*\n)+", "", text))
@@ -151,7 +151,7 @@ def _statements(node: ast.stmt, lines: "_Lines", code: list[str], line: int) -> 
 
 
 def _read_magic(
-    name: str, options: str, body: str, cell: int, above: int, found: Cells, depth: int
+    name: str, options: str, body: str, cell: int, above: int, found: NotebookCode, depth: int
 ) -> None:
     if name in RUNS and depth < _DEEPEST:
         _read(body, cell, above + 1, found, depth + 1)
@@ -199,7 +199,7 @@ def _magic(node: ast.AST) -> tuple[str, list[str]]:
 class _Lines(ast.NodeTransformer):
     """Takes lines for the notebook's shell out of a statement, in whatever is below it."""
 
-    def __init__(self, found: Cells, cell: int, above: int) -> None:
+    def __init__(self, found: NotebookCode, cell: int, above: int) -> None:
         self.found, self.cell, self.above = found, cell, above
         self.functions = 0
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from course.engine.functions.modules import COURSE
 from course.school.grading.classes.engines import apart
 from course.school.grading.classes.entries import Entry, archive_suffix
-from course.school.grading.classes.names import NOTEBOOK, PYTHON, Named, read_name
+from course.school.grading.classes.names import NOTEBOOK, PYTHON, NamedFile, read_name
 from course.school.grading.classes.notebooks import Notebook, converted, read_notebook
 from course.school.grading.submissions import LARGEST_FILE, SubmissionError
 
@@ -62,8 +62,8 @@ def modules_defined(source: bytes, modules: Iterable[str]) -> list[str]:
     return halves or (found if len(found) == 1 else [])
 
 
-def _taken(module: str, candidates: list[tuple[Entry, Named]], remarks: list[str]) -> bytes:
-    def rank(candidate: tuple[Entry, Named]) -> tuple[bool, bool, int]:
+def _taken(module: str, candidates: list[tuple[Entry, NamedFile]], remarks: list[str]) -> bytes:
+    def rank(candidate: tuple[Entry, NamedFile]) -> tuple[bool, bool, int]:
         entry, name = candidate
         # A name that is exact goes before one that isn't, a file at the top before one that lies deeper.
         return name.suffix == NOTEBOOK, not name.exact, len(entry.path.parts)

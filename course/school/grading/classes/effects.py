@@ -56,7 +56,7 @@ _BUILTINS = frozenset(dir(builtins)) | {"display", "get_ipython"}
 
 
 @dataclass
-class Effects:
+class NameEffects:
     """What running something does to names.
 
     Attributes
@@ -140,9 +140,9 @@ def bodies(node: ast.AST) -> Iterator[ast.AST]:
                 yield from ast.walk(part)
 
 
-def effects(nodes: Iterable[ast.AST], packages: Mapping[str, str]) -> Effects:
+def effects(nodes: Iterable[ast.AST], packages: Mapping[str, str]) -> NameEffects:
     """The effects of nodes, each by itself; ``packages``: as from `imported`."""
-    found = Effects()
+    found = NameEffects()
     for node in nodes:
         match node:
             case ast.Name(name, ast.Load()):
@@ -182,7 +182,7 @@ def effects(nodes: Iterable[ast.AST], packages: Mapping[str, str]) -> Effects:
     return found
 
 
-def _call(node: ast.Call, packages: Mapping[str, str], found: Effects) -> None:
+def _call(node: ast.Call, packages: Mapping[str, str], found: NameEffects) -> None:
     function = node.func
     handed = {root for value in arguments(node) for root in shared(value)} - packages.keys()
     if isinstance(function, ast.Name) and function.id == "exec":
@@ -281,7 +281,7 @@ def _names(node: ast.AST) -> Iterator[ast.Name]:
     return (one for one in ast.walk(node) if isinstance(one, ast.Name))
 
 
-def _share(found: Effects, target: ast.expr, value: ast.expr) -> None:
+def _share(found: NameEffects, target: ast.expr, value: ast.expr) -> None:
     names = {one.id for one in _names(target)}
     found.shares |= {(name, root) for name in names for root in shared(value)}
 

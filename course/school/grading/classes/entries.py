@@ -70,7 +70,7 @@ class Entry:
 
 
 @dataclass
-class Budget:
+class ArchiveBudget:
     """Entries and bytes that the archives of one submission may still list and unpack to."""
 
     entries: int = MOST_ENTRIES
@@ -157,11 +157,11 @@ def file_reader(path: Path) -> Callable[[int], bytes]:
 
 def unfolded(entries: Iterator[Entry], remarks: list[str]) -> Iterator[Entry]:
     """The entries, those in archives among them; what is told of archives that can't be read goes to the remarks."""
-    yield from _unfolded(entries, remarks, Budget(), DEEPEST)
+    yield from _unfolded(entries, remarks, ArchiveBudget(), DEEPEST)
 
 
 def _unfolded(
-    entries: Iterator[Entry], remarks: list[str], budget: Budget, depth: int
+    entries: Iterator[Entry], remarks: list[str], budget: ArchiveBudget, depth: int
 ) -> Iterator[Entry]:
     for entry in own_work(list(entries), _path, remarks):
         name = str(entry.path)
@@ -186,7 +186,9 @@ def _unfolded(
             remarks.append(str(error))
 
 
-def archive_entries(name: str, content: bytes, budget: Budget, remarks: list[str]) -> list[Entry]:
+def archive_entries(
+    name: str, content: bytes, budget: ArchiveBudget, remarks: list[str]
+) -> list[Entry]:
     """Files of an archive that are somebody's work; ``remarks`` gets what was passed over.
 
     Raises SubmissionError: it is damaged, too large, of a kind that can't be read, or a path in it leads out.
@@ -215,7 +217,9 @@ def archive_entries(name: str, content: bytes, budget: Budget, remarks: list[str
     return found
 
 
-def _zip_entries(name: str, content: bytes, budget: Budget, remarks: list[str]) -> list[Entry]:
+def _zip_entries(
+    name: str, content: bytes, budget: ArchiveBudget, remarks: list[str]
+) -> list[Entry]:
     archive = zipfile.ZipFile(BytesIO(content))
     found = []
     for info in own_work(archive.infolist(), _zip_path, remarks):
@@ -241,7 +245,9 @@ def _unzip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, shown: str, limit: i
         raise SubmissionError(f"{shown} can't be read: {error}") from error
 
 
-def _tar_entries(name: str, content: bytes, budget: Budget, remarks: list[str]) -> list[Entry]:
+def _tar_entries(
+    name: str, content: bytes, budget: ArchiveBudget, remarks: list[str]
+) -> list[Entry]:
     data = _unpacked(content)
     if len(data) > LARGEST_TAR:
         raise too_large(name)

@@ -18,7 +18,7 @@ from course.school.grading.classes.engines import Engine, Outcome
 from course.school.grading.classes.job import (
     RESULTS,
     Graded,
-    Job,
+    GradingJob,
     grade_job,
     report_files,
     troubled,
@@ -27,7 +27,7 @@ from course.school.grading.classes.keeping import fingerprint, keep, kept
 from course.school.grading.classes.names import NOT_CERTAIN
 from course.school.grading.classes.policy import MODIFIED, Mark, Rules, mark
 from course.school.grading.classes.roster import Matched, Roster, match
-from course.school.grading.classes.settings import INSTRUCTOR, Settings
+from course.school.grading.classes.settings import INSTRUCTOR, GradingSettings
 from course.school.grading.classes.similarity import Compared, compare
 from course.school.grading.classes.submitted import Submission, find_submissions
 from course.school.grading.references import make_references
@@ -42,7 +42,7 @@ TOTAL = 100.0
 
 _LAST = datetime.max.replace(tzinfo=UTC, microsecond=0).timestamp()
 
-ClassEngine = Engine[Job, Path | bytes, Graded]
+ClassEngine = Engine[GradingJob, Path | bytes, Graded]
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ class ClassResult:
         return [report.student for report in self.reports if report.broken]
 
 
-def grade_class(folder: Path, out: Path, settings: Settings, runner: Runner) -> ClassResult:
+def grade_class(folder: Path, out: Path, settings: GradingSettings, runner: Runner) -> ClassResult:
     """Grade every submission in a folder.
 
     Parameters
@@ -147,7 +147,11 @@ def grade_class(folder: Path, out: Path, settings: Settings, runner: Runner) -> 
 
 
 def grade_all(
-    submissions: Sequence[Submission], out: Path, settings: Settings, runner: Runner, code: str = ""
+    submissions: Sequence[Submission],
+    out: Path,
+    settings: GradingSettings,
+    runner: Runner,
+    code: str = "",
 ) -> ClassResult:
     """Grade submissions, and write a folder for each student.
 
@@ -165,7 +169,7 @@ def grade_all(
         if report is not None and (runner.trusted or not report.unprotected)
     }
     jobs = [
-        Job(one.student, one.sources, one.trouble, settings, runner.trusted, one.remarks)
+        GradingJob(one.student, one.sources, one.trouble, settings, runner.trusted, one.remarks)
         for one in submissions
         if one.student not in reports
     ]
@@ -186,7 +190,7 @@ def grade_all(
     return ClassResult(tuple(submissions), ordered, len(jobs))
 
 
-def _keep(out: Path, outcome: Outcome[Job, Graded], mark: str) -> Report:
+def _keep(out: Path, outcome: Outcome[GradingJob, Graded], mark: str) -> Report:
     """Write what came of one submission."""
     graded, fault = outcome.value, outcome.fault
     if graded is not None and graded.report.version != __version__:
@@ -210,7 +214,7 @@ def finish(
     submissions: Sequence[Submission],
     reports: Sequence[Report],
     out: Path,
-    settings: Settings,
+    settings: GradingSettings,
     terms: tuple[Rules | None, Roster | None],
     earlier: Mapping[str, Report] = MappingProxyType({}),
 ) -> Finished:
@@ -225,7 +229,7 @@ def finish(
     earlier : student -> what an earlier run had found
     """
     from course.school.grading.reports.classes import (
-        Line,
+        ClassLine,
         doubts_of,
         write_class_page,
         write_grades,
@@ -237,7 +241,7 @@ def finish(
     compared = compare(submissions, settings.modules, out / INSTRUCTOR / "similarity.npz")
     marks = _marks(submissions, reports, rules)
     lines = {
-        one.student: Line((*one.remarks, *_unusable(one, report)), marks.get(one.student))
+        one.student: ClassLine((*one.remarks, *_unusable(one, report)), marks.get(one.student))
         for one, report in zip(submissions, reports, strict=True)
     }
     total = None if rules is None else rules.policy.total

@@ -4,7 +4,7 @@ import re
 import unicodedata
 from collections.abc import Sequence
 
-from course.school.grading.classes.tables import Table
+from course.school.grading.classes.tables import ClassTable
 
 NAME, FIRST, LAST, NUMBER, LOGIN, EMAIL, GITHUB, GRADE = (
     *("name", "first name", "last name", "number", "login", "address", "GitHub", "grade"),
@@ -79,7 +79,7 @@ _PARTICIPANT = re.compile(r"(\D*\D\s)\d+")
 """What Moodle's worksheet has before a number, in any language."""
 
 
-def meanings(table: Table) -> tuple[str, ...]:
+def meanings(table: ClassTable) -> tuple[str, ...]:
     """The meaning of each column; empty for one that is not understood, or has the heading of another one."""
     heads = [squashed(column) for column in table.columns]
     found = [next((m for m, known in _HEADINGS.items() if head in known), "") for head in heads]

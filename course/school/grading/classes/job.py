@@ -12,7 +12,7 @@ from pathlib import Path
 
 from course.base.version import __version__
 from course.school.grading.checks.check import References
-from course.school.grading.classes.settings import Settings
+from course.school.grading.classes.settings import GradingSettings
 from course.school.grading.grading import grade
 from course.school.grading.references import read_references
 from course.school.grading.report import Report, for_students
@@ -23,7 +23,7 @@ RESULTS = "results.json"
 
 
 @dataclass(frozen=True)
-class Job:
+class GradingJob:
     """A submission that is to be graded.
 
     Attributes
@@ -39,7 +39,7 @@ class Job:
     student: str
     sources: Mapping[str, bytes]
     trouble: str
-    settings: Settings
+    settings: GradingSettings
     trusted: bool = False
     remarks: tuple[str, ...] = ()
 
@@ -58,7 +58,7 @@ class Graded:
     files: Mapping[str, bytes]
 
 
-def grade_job(job: Job, references: Path | bytes) -> Graded:
+def grade_job(job: GradingJob, references: Path | bytes) -> Graded:
     """Grade one submission and write its reports, as bytes.
 
     ``references``: a file of ``make_references``, or its content

@@ -15,7 +15,7 @@ from course.base.errors import OutputError
 from course.base.version import __version__
 from course.school.grading.checks.result import Result, Status
 from course.school.grading.classes.job import RESULTS, Graded
-from course.school.grading.classes.settings import INSTRUCTOR, Settings
+from course.school.grading.classes.settings import INSTRUCTOR, GradingSettings
 from course.school.grading.classes.submitted import Submission
 from course.school.grading.report import Report
 from course.school.grading.reports.formats import as_json, json_bytes
@@ -24,7 +24,7 @@ _REPORT = [field.name for field in fields(Report)]
 _RESULT = [field.name for field in fields(Result) if field.name not in ("figures", "instructor")]
 
 
-def fingerprint(submission: Submission, settings: Settings, code: str = "") -> str:
+def fingerprint(submission: Submission, settings: GradingSettings, code: str = "") -> str:
     """One line that changes whenever the result may: with submission, seed, version, modules or the grader's code."""
     seconds, sources = settings.submission_seconds, submission.sources
     parts = [__version__, settings.seed, settings.modules, submission.trouble, submission.remarks]

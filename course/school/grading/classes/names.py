@@ -31,7 +31,7 @@ _OUTPUTS = (
 
 
 @dataclass(frozen=True)
-class Named:
+class NamedFile:
     """The meaning of a file's name.
 
     Attributes
@@ -48,22 +48,22 @@ class Named:
     suffix: str
 
 
-def read_name(name: str, modules: Iterable[str]) -> Named:
+def read_name(name: str, modules: Iterable[str]) -> NamedFile:
     """Which module a file is by its name: thin_lens.py, Thin_Lens.py, thin_lens (1).py, alice-thin-lens-2.py."""
     stem, suffix = _split(name)
     if not suffix:
-        return Named("", stem, False, "")
+        return NamedFile("", stem, False, "")
     plain = _COPY.sub("", stem)
     folded = _folded(plain)
     # The longest first: importance_sampling is no submission of sampling.
     for module in sorted(modules, key=len, reverse=True):
         if folded == module or folded.replace("_", "") == module.replace("_", ""):
-            return Named(module, "", name == f"{module}{PYTHON}", suffix)
+            return NamedFile(module, "", name == f"{module}{PYTHON}", suffix)
         if folded.endswith(f"_{module}"):
-            return Named(module, plain[: -len(module)].rstrip(_SEPARATORS), False, suffix)
+            return NamedFile(module, plain[: -len(module)].rstrip(_SEPARATORS), False, suffix)
         if folded.startswith(f"{module}_"):
-            return Named(module, plain[len(module) :].lstrip(_SEPARATORS), False, suffix)
-    return Named("", stem, False, suffix)
+            return NamedFile(module, plain[len(module) :].lstrip(_SEPARATORS), False, suffix)
+    return NamedFile("", stem, False, suffix)
 
 
 def _split(name: str) -> tuple[str, str]:

@@ -16,7 +16,7 @@ from typing import Any, TypeGuard
 from course.school.grading.classes.cells import Statement
 from course.school.grading.classes.effects import (
     DISPLAY,
-    Effects,
+    NameEffects,
     arguments,
     bodies,
     dotted,
@@ -48,8 +48,8 @@ class _Use:
     binds: set[str]
     reads: set[str]
     sets: set[str]
-    now: Effects
-    later: Effects
+    now: NameEffects
+    later: NameEffects
     kept: str = field(default="", compare=False)
 
     @property

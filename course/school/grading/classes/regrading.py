@@ -21,7 +21,7 @@ from course.school.grading.classes.grading import (
     grade_all,
 )
 from course.school.grading.classes.keeping import fingerprint, keep, kept, kept_files, recorded
-from course.school.grading.classes.settings import INSTRUCTOR, Settings
+from course.school.grading.classes.settings import INSTRUCTOR, GradingSettings
 from course.school.grading.classes.submitted import find_submissions
 from course.school.grading.report import Report
 
@@ -29,7 +29,7 @@ _CODE = ((PACKAGE, "*.py"), (PACKAGE, "*.json"), (PROJECT / "solutions", "*.py")
 
 
 @dataclass(frozen=True)
-class Change:
+class ScoreChange:
     """The changes of a new grading for a student.
 
     Attributes
@@ -59,12 +59,12 @@ class Regraded:
     """
 
     result: ClassResult
-    changes: tuple[Change, ...]
-    settings: Settings
+    changes: tuple[ScoreChange, ...]
+    settings: GradingSettings
     gone: tuple[str, ...] = ()
 
 
-def regrade(folder: Path, out: Path, settings: Settings, runner: Runner) -> Regraded:
+def regrade(folder: Path, out: Path, settings: GradingSettings, runner: Runner) -> Regraded:
     """Grade a class again, beside what was graded before.
 
     Parameters
@@ -99,13 +99,13 @@ def apply(regraded: Regraded, out: Path) -> Finished:
     return finished
 
 
-def _change(before: Report | None, after: Report) -> Change | None:
+def _change(before: Report | None, after: Report) -> ScoreChange | None:
     if after.trouble.startswith(FAULT):
         return None
     pairs = _paired(before.results if before else (), after.results)
     checks = tuple(pair for pair in pairs if _ended(pair[0]) != _ended(pair[1]))
     same = before is not None and before.trouble == after.trouble
-    return None if same and not checks else Change(after.student, before, after, checks)
+    return None if same and not checks else ScoreChange(after.student, before, after, checks)
 
 
 def _paired(

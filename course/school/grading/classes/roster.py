@@ -21,7 +21,7 @@ from course.school.grading.classes.headings import (
     squashed,
 )
 from course.school.grading.classes.systems import BY_GITHUB
-from course.school.grading.classes.tables import Table, read_table
+from course.school.grading.classes.tables import ClassTable, read_table
 
 _POINTS_POSSIBLE = "points possible"
 """What Canvas writes as the first student of its gradebook."""
@@ -135,7 +135,7 @@ def read_roster(path: Path) -> Roster:
     return Roster(tuple(students), table.columns, is_canvas, _worksheet(table, means), tuple(told))
 
 
-def _passed_over(table: Table, means: Sequence[str]) -> list[str]:
+def _passed_over(table: ClassTable, means: Sequence[str]) -> list[str]:
     """The columns by which nobody is looked for."""
     over = [
         clean_line(column) or "(no heading)"
@@ -148,7 +148,7 @@ def _passed_over(table: Table, means: Sequence[str]) -> list[str]:
     return [f"nobody is looked for by the columns {', '.join(over[:_MOST_LISTED])}{more}"]
 
 
-def _worksheet(table: Table, means: Sequence[str]) -> Worksheet | None:
+def _worksheet(table: ClassTable, means: Sequence[str]) -> Worksheet | None:
     columns = [[cells[i] for _, cells in table.rows] for i in range(len(table.columns))]
     if not any(map(is_participant, columns)):
         return None

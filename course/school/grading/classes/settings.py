@@ -14,7 +14,7 @@ INSTRUCTOR = "instructor"
 """Folder beside those of the students for what they are not to see."""
 
 
-class Settings(msgspec.Struct, frozen=True):
+class GradingSettings(msgspec.Struct, frozen=True):
     """As the options of `course grade` say it.
 
     Attributes
@@ -39,7 +39,9 @@ class Settings(msgspec.Struct, frozen=True):
             read_roster(Path(self.roster)) if self.roster else None,
         )
 
-    def instead(self, policy: Path | None, roster: Path | None, title: str | None) -> "Settings":
+    def instead(
+        self, policy: Path | None, roster: Path | None, title: str | None
+    ) -> "GradingSettings":
         """The same with another policy, roster or title, where one is given."""
         return msgspec.structs.replace(
             self,
@@ -64,14 +66,14 @@ class Settings(msgspec.Struct, frozen=True):
         write_text(_path(out), msgspec.json.format(text) + "\n")
 
 
-def read_settings(out: Path, submission_seconds: float | None = None) -> Settings:
+def read_settings(out: Path, submission_seconds: float | None = None) -> GradingSettings:
     """The settings of what was graded into a folder.
 
     Raises CourseError: nothing was graded into it.
     ``submission_seconds``: in the place of those before; None to keep them
     """
     try:
-        settings = msgspec.json.decode(_path(out).read_bytes(), type=Settings)
+        settings = msgspec.json.decode(_path(out).read_bytes(), type=GradingSettings)
     except (OSError, msgspec.DecodeError):
         raise CourseError(
             f"{out}: holds no class that was graded; `course grade SUBMISSIONS --out {out}` does that"

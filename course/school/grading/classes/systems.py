@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 from course.base.errors import CourseError
-from course.base.inputs import LARGEST_SCENE, Bound, read_input
+from course.base.inputs import LARGEST_SCENE, InputLimit, read_input
 from course.school.grading.classes.engines import apart
 
 BY_GITHUB = "github:"
@@ -132,7 +132,7 @@ def _github(folder: Path, paths: Iterable[Path]) -> Iterable[tuple[Path, Sent]]:
 def _gradescope(metadata: Path, paths: Iterable[Path]) -> dict[Path, tuple[Sent, ...]]:
     """Folders of Gradescope's export, each of one student or of several who have handed it in together."""
     try:
-        content = read_input(metadata, "metadata of Gradescope", Bound(LARGEST_SCENE))
+        content = read_input(metadata, "metadata of Gradescope", InputLimit(LARGEST_SCENE))
     except CourseError:
         return {}
     (known,) = apart(_submitters, [content], seconds=60.0).values()

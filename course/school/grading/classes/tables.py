@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from course.base.errors import CourseError
-from course.base.inputs import LARGEST_SCENE, Bound, read_input, shown, text_of
+from course.base.inputs import LARGEST_SCENE, InputLimit, read_input, shown, text_of
 
 _DELIMITERS = ",;\t|"
 
 
 @dataclass(frozen=True)
-class Table:
+class ClassTable:
     """A table with a heading.
 
     Attributes
@@ -32,9 +32,9 @@ class Table:
             yield line, dict(reversed([*zip(self.columns, cells, strict=True)]))
 
 
-def read_table(path: Path, what: str) -> Table:
+def read_table(path: Path, what: str) -> ClassTable:
     """Read a CSV file; ``CourseError`` where it can't be read, or a row has more cells than the heading."""
-    content = read_input(path, what, Bound(LARGEST_SCENE))
+    content = read_input(path, what, InputLimit(LARGEST_SCENE))
     try:
         text = text_of(content)
     except UnicodeError as error:
@@ -53,7 +53,7 @@ def read_table(path: Path, what: str) -> Table:
     columns = tuple(found[0][1]) if found else ()
     while columns and not columns[-1]:
         columns = columns[:-1]
-    return Table(
+    return ClassTable(
         columns, tuple((line, _cells(path, line, row, columns)) for line, row in found[1:])
     )
 

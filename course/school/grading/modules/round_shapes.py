@@ -47,7 +47,7 @@ STEEP = 10.0
 
 
 @dataclass(frozen=True)
-class Shape:
+class RoundShape:
     """A round shape.
 
     Attributes
@@ -90,7 +90,7 @@ def _in_ball(offsets: Array) -> Array:
     return np.stack((length**3, *_turned(offsets / np.maximum(length, TINY))))
 
 
-DISK = Shape(
+DISK = RoundShape(
     "disk",
     lambda p: np.stack((_length(p) ** 2, turn(p[0], p[1]))),
     "r^2 and turn of the points",
@@ -99,7 +99,7 @@ DISK = Shape(
     (1 / 4, 1 / 8, 1 / 24),
     "Does a ring get as many points as its share of the area, all the way round?",
 )
-BALL = Shape(
+BALL = RoundShape(
     "ball",
     _in_ball,
     "r^3, height over r and turn about a tilted axis of the points",
@@ -108,7 +108,7 @@ BALL = Shape(
     (1 / 5, 3 / 35, 1 / 35),
     "Does a shell get as many points as its share of the volume, in every direction?",
 )
-SPHERE = Shape(
+SPHERE = RoundShape(
     "sphere",
     lambda p: np.stack(_turned(p)),
     "height and turn about a tilted axis of the points",
@@ -119,7 +119,7 @@ SPHERE = Shape(
 )
 
 
-def edge(shape: Shape, offsets: Offsets = _of_the_unit, **how: Any) -> Law:
+def edge(shape: RoundShape, offsets: Offsets = _of_the_unit, **how: Any) -> Law:
     """Points of the sphere are one radius from the centre; others not more, and some nearly as much."""
 
     def look(a: Arguments, r: Any) -> None:
@@ -149,7 +149,9 @@ def edge(shape: Shape, offsets: Offsets = _of_the_unit, **how: Any) -> Law:
     return law(name, title, look, ends=True, **how)
 
 
-def uniform_over(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | None = None) -> Law:
+def uniform_over(
+    shape: RoundShape, offsets: Offsets = _of_the_unit, case: Case | None = None
+) -> Law:
     """Points are uniform over the shape."""
     title = {"disk": "over the disk's area", "ball": "over the ball's volume"}
     return uniform(
@@ -166,7 +168,7 @@ def uniform_over(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | Non
     )
 
 
-def moments(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | None = None) -> Law:
+def moments(shape: RoundShape, offsets: Offsets = _of_the_unit, case: Case | None = None) -> Law:
     """The coordinates' means, and those of their squares and products, are the shape's."""
     second, fourth, mixed = shape.powers
     names = "xy" if shape is DISK else "xyz"
@@ -185,7 +187,7 @@ def moments(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | None = N
 
 
 def warps(
-    shape: Shape,
+    shape: RoundShape,
     offsets: Offsets = _of_the_unit,
     case: Case | None = None,
     unit: Case | None = None,
@@ -205,7 +207,7 @@ def warps(
     )
 
 
-def unit_points(path: str, shape: Shape) -> Function:
+def unit_points(path: str, shape: RoundShape) -> Function:
     """A function that makes a point of the unit's shape of each u; its axes may be exchanged."""
     return function(
         path,
@@ -217,7 +219,7 @@ def unit_points(path: str, shape: Shape) -> Function:
     )
 
 
-def _smooth_values(shape: Shape, offsets: Array) -> Array:
+def _smooth_values(shape: RoundShape, offsets: Array) -> Array:
     """An exponential, and twice what is uniform of each point's distance or height: u to the 0.34 shows in its mean."""
     return np.asarray(np.exp(TILTS[len(offsets)] @ offsets) + 2 * shape.places(offsets)[0])
 

@@ -16,7 +16,7 @@ from course.school.grading.modules.round_shapes import (
     BALL,
     DISK,
     SPHERE,
-    Shape,
+    RoundShape,
     edge,
     moments,
     seen,
@@ -111,7 +111,7 @@ def _habits(a: Arguments, points: Array) -> Array:
     return np.concatenate((seen(points), np.repeat(kinds, points.shape[1], axis=1)))
 
 
-def _by_rejection(shape: Shape, rows: int) -> Function:
+def _by_rejection(shape: RoundShape, rows: int) -> Function:
     """A shape's points, as many as are asked for."""
     return function(
         f"sampling.{shape.name}_by_rejection",

@@ -177,7 +177,7 @@ RADIUS_ZERO = close(
 )
 
 
-def _light(name: str, shape: round_shapes.Shape) -> Function:
+def _light(name: str, shape: round_shapes.RoundShape) -> Function:
     """A light that looks the same from everywhere."""
     return function(
         f"soft_shadows.{name}",

@@ -66,7 +66,7 @@ _PASSED_OVER = re.compile(r"\b(?:current|final|override|unposted)\b", re.IGNOREC
 
 
 @dataclass(frozen=True)
-class Line:
+class ClassLine:
     """Remarks and mark of a student, besides what was found.
 
     Attributes
@@ -82,7 +82,7 @@ class Line:
 def write_grades(
     reports: Sequence[Report],
     path: Path,
-    lines: Mapping[str, Line] = MappingProxyType({}),
+    lines: Mapping[str, ClassLine] = MappingProxyType({}),
     total: float | None = None,
 ) -> None:
     """Write grades.csv: student, score, points, of, which checks broke, remarks, then the points of each function.
@@ -107,7 +107,7 @@ def write_grades(
     head = ["student", "score", "points", "of", *([] if total is None else MARKS)]
     rows = [[*head, "broken checks", "remarks", *map(safe_cell, functions)]]
     for report, own in zip(reports, points, strict=True):
-        line = lines.get(report.student, Line())
+        line = lines.get(report.student, ClassLine())
         score = line.mark or Mark(0.0, 0.0, 0.0)
         grades = [report.score, report.points, report.of]
         grades += [] if total is None else [score.raw, score.adjusted, score.final]
@@ -212,7 +212,7 @@ def write_class_page(
     reports: Sequence[Report],
     similar: Sequence[tuple[str, str, str, float]],
     path: Path,
-    lines: Mapping[str, Line] = MappingProxyType({}),
+    lines: Mapping[str, ClassLine] = MappingProxyType({}),
     total: float | None = None,
     *,
     not_compared: Sequence[tuple[str, str]] = (),

@@ -64,7 +64,7 @@ _LABELS = {"expected": "The reference", "yours": "Yours"}
 _TITLES = {"expected": "Reference", "yours": "Yours"}
 
 
-class Scale(NamedTuple):
+class ColourScale(NamedTuple):
     """The meaning of a map's colours: what its two ends stand for; the middle is 0."""
 
     low: str
@@ -89,7 +89,7 @@ class Panel:
     caption: str = ""
     pixels: NDArray[np.uint8] | None = None
     svg: str = ""
-    scale: Scale | None = None
+    scale: ColourScale | None = None
 
     def data_uri(self, factor: int = 1) -> Markup:
         """The picture or plot as a ``data:`` address, which templates print whole, however long it is.
@@ -257,7 +257,7 @@ def _compared(yours: Floats64, expected: Floats64, notes: list[str], noisy: bool
             "Yours minus the reference, of the colour that differs most: "
             f"blue where yours is darker, red where brighter. Colours end at ±{scale:.3g}{told}.",
             _map(worst, scale),
-            scale=Scale(f"−{scale:.3g} darker", f"+{scale:.3g} brighter"),  # noqa: RUF001
+            scale=ColourScale(f"−{scale:.3g} darker", f"+{scale:.3g} brighter"),  # noqa: RUF001
         )
     ]
     if noisy:
@@ -305,7 +305,7 @@ def _over_noise(difference: Floats64, least: float, notes: list[str]) -> list[Pa
         f"The noise is not known; it is taken as {noise:.2g}, from the median absolute difference between each pixel's "
         f"difference and its neighbours'. Colours end at ±{NOISE_LIMIT:g}.",
         _map(largest, NOISE_LIMIT),
-        scale=Scale(f"−{NOISE_LIMIT:g} or less", f"+{NOISE_LIMIT:g} or more"),  # noqa: RUF001
+        scale=ColourScale(f"−{NOISE_LIMIT:g} or less", f"+{NOISE_LIMIT:g} or more"),  # noqa: RUF001
     )
     return [panel]
 

@@ -26,7 +26,7 @@ from course.engine.render.adaptive.rounds import ADAPTABLE
 from course.engine.render.picture import Picture
 from course.engine.render.render import reads_loops_first, render
 from course.engine.scene.scene import Scene, load_scene
-from course.school.grading.progress import Progress
+from course.school.grading.progress import FunctionProgress
 from course.school.grading.reports.drawing import data_uri, draw_curve, with_own_ids
 from course.school.grading.reports.order import place
 from course.school.grading.reports.page import render as fill
@@ -79,7 +79,7 @@ class Shown:
     slope: float | None
     receipt: tuple[tuple[str, str], ...]
     problem: str
-    functions: tuple[Progress, ...]
+    functions: tuple[FunctionProgress, ...]
     few: tuple[int, int] = (0, 0)
 
     @property
@@ -118,7 +118,7 @@ class _Clock:
 
 
 def portfolio(
-    found: list[list[Progress]],
+    found: list[list[FunctionProgress]],
     effects: Effects,
     scenes: Path,
     seconds: float = SECONDS,
@@ -156,7 +156,7 @@ def portfolio(
 
 
 def _shown(
-    begun: list[list[Progress]],
+    begun: list[list[FunctionProgress]],
     effects: Effects,
     scenes: Path,
     seconds: float,
@@ -178,7 +178,7 @@ def _shown(
 
 def _rendered(
     module: str,
-    functions: tuple[Progress, ...],
+    functions: tuple[FunctionProgress, ...],
     effects: Effects,
     scenes: Path,
     seconds: float,

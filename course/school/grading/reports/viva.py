@@ -9,7 +9,7 @@ from markupsafe import Markup
 from course.school.grading.checks.check import Figure
 from course.school.grading.reports.drawing import Drawing, draw, reworded, with_own_ids
 from course.school.grading.reports.page import render
-from course.school.grading.viva.asking import Answer, Asked
+from course.school.grading.viva.asking import Answer, VivaQuestion
 
 WORDS = {
     "Yours minus the reference": "The changed code's minus the student's own",
@@ -26,7 +26,7 @@ PANELS = 3
 """Before, after, and the difference; what reports enlarge below is left out."""
 
 
-def viva_page(student: str, asked: Sequence[Asked], unprotected: str) -> str:
+def viva_page(student: str, asked: Sequence[VivaQuestion], unprotected: str) -> str:
     """HTML of the questions to one student.
 
     ``unprotected``: the harm that the code could have done, as `Report.unprotected` says it; empty if none

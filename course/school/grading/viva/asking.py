@@ -19,7 +19,7 @@ from course.school.grading.grading import grade
 from course.school.grading.pictures.catalog import SCENES
 from course.school.grading.release.stubs import make_stub
 from course.school.grading.report import FunctionResults, grouped
-from course.school.grading.viva.changes import Change, changes
+from course.school.grading.viva.changes import SourceChange, changes
 from course.school.grading.worker.sandbox import Sandbox
 
 TRIED = 6
@@ -61,11 +61,11 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Asked:
+class VivaQuestion:
     """One question about one line, with its answer."""
 
     module: str
-    change: Change
+    change: SourceChange
     answer: Answer
 
     @property
@@ -96,7 +96,7 @@ class Asked:
             yield f"{result.check}: {result.title}: {found or result.found}"
 
 
-def _listed(work: tuple[str, str, str, str]) -> list[Change]:
+def _listed(work: tuple[str, str, str, str]) -> list[SourceChange]:
     """Changes of one function of a student's text; in another process, for a text can be made to take hours."""
     source, module, function, given = work
     if len(source) > LARGEST:
@@ -118,7 +118,7 @@ def viva(
     questions: int = 3,
     seed: int = 0,
     each: Callable[[str], None] = lambda _: None,
-) -> Iterator[Asked]:
+) -> Iterator[VivaQuestion]:
     """Questions about as many functions, of different modules as far as there are.
 
     Parameters
@@ -160,7 +160,7 @@ def viva(
         best = _best(own, _varied(found, rng), graded)
         if best is not None:
             left -= 1
-            yield Asked(module, *best)
+            yield VivaQuestion(module, *best)
 
 
 def _functions(sources: Mapping[str, bytes], rng: Random) -> list[tuple[str, str]]:
@@ -174,7 +174,7 @@ def _functions(sources: Mapping[str, bytes], rng: Random) -> list[tuple[str, str
     return [one[number] for number in range(longest) for one in by_module if number < len(one)]
 
 
-def _varied(found: list[Change], rng: Random) -> list[Change]:
+def _varied(found: list[SourceChange], rng: Random) -> list[SourceChange]:
     """Some changes by chance, of as many kinds and lines as there are."""
     rng.shuffle(found)
     seen: dict[str, int] = {}
@@ -186,10 +186,10 @@ def _varied(found: list[Change], rng: Random) -> list[Change]:
 
 
 def _best(
-    own: FunctionResults, found: list[Change], graded: Callable[[str], FunctionResults]
-) -> tuple[Change, Answer] | None:
+    own: FunctionResults, found: list[SourceChange], graded: Callable[[str], FunctionResults]
+) -> tuple[SourceChange, Answer] | None:
     """The change with most to talk about; the first that is good enough ends the search."""
-    best: tuple[Change, Answer] | None = None
+    best: tuple[SourceChange, Answer] | None = None
     for change in found:
         answer = _answer(own, graded(change.source))
         if answer is None:

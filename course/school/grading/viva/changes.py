@@ -24,7 +24,7 @@ ORDERED = ("arctan2", "atan2", "cross", "divide", "subtract")
 
 
 @dataclass(frozen=True)
-class Change:
+class SourceChange:
     """A student's module with one place changed.
 
     Attributes
@@ -44,7 +44,7 @@ class Change:
     source: str
 
 
-def changes(source: str, functions: tuple[str, ...], given: str) -> Iterator[Change]:
+def changes(source: str, functions: tuple[str, ...], given: str) -> Iterator[SourceChange]:
     """Every change that is known of, from top to bottom.
 
     Parameters
@@ -69,7 +69,7 @@ def changes(source: str, functions: tuple[str, ...], given: str) -> Iterator[Cha
                 line = source.count("\n", 0, first)
                 before, after = (each.splitlines()[line].strip() for each in (source, changed))
                 if before not in stub and before != after and _tree(changed):
-                    yield Change(name, kind, line + 1, before, after, changed)
+                    yield SourceChange(name, kind, line + 1, before, after, changed)
 
 
 def _without_parentheses(before: str, new: str, after: str) -> str:

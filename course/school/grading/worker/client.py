@@ -13,7 +13,7 @@ import numpy as np
 from course.school.grading.errors import StudentError
 from course.school.grading.looked import EARLIER_RESULT, RANDOM_STATE, Looked
 from course.school.grading.worker.framing import BrokenMessage, generator, pack
-from course.school.grading.worker.limits import Budget, Limits, Patience
+from course.school.grading.worker.limits import Limits, TimeBudget, WorkerBudget
 from course.school.grading.worker.process import Process
 from course.school.grading.worker.sandbox import Sandbox, sandbox
 from course.school.grading.worker.wording import no_such, not_loaded, replied, said
@@ -56,9 +56,10 @@ class Worker:
     source : the student's file
     limits : what it may use; the usual if not given
     shut_in : how it is started; the best that the machine has if not given
-    lender, lent : functions of the module, by name, that take the place of the student's own when other functions of
-        the module call them; they are worked out by ``lender``, a worker of the course's own, which is closed with this
-    patience : shared by all workers of the module; one of its own if not given
+    substitute, lent : functions of the module, by name, that take the place of the student's own when other
+        functions of the module call them; they are worked out by ``substitute``, a worker of the course's own, which is
+        closed with this
+    time_budget : shared by all workers of the module; one of its own if not given
     budget : shared by all workers of the submission; one of its own if not given
     trouble : why there is nothing to import; None if there is
     """
@@ -69,26 +70,26 @@ class Worker:
         source: bytes,
         limits: Limits | None = None,
         shut_in: Sandbox | None = None,
-        lender: "Worker | None" = None,
+        substitute: "Worker | None" = None,
         lent: Sequence[str] = (),
-        patience: Patience | None = None,
-        budget: Budget | None = None,
+        time_budget: TimeBudget | None = None,
+        budget: WorkerBudget | None = None,
         trouble: StudentError | None = None,
     ) -> None:
         self.module = module
-        self.yardstick: Worker | None = None
+        self.reference_caller: Worker | None = None
         """The reference's: a call that is late may take as long as a plain loop would, by what it takes there."""
-        self._lender, self._lent = lender, tuple(lent)
+        self._substitute, self._lent = substitute, tuple(lent)
         self.borrowed = False
         """Whether a function that is lent has been asked for."""
         self.limits = limits or Limits()
         self.sandbox = shut_in or sandbox()
         self._source = source
-        self._budget = budget or Budget(self.limits)
+        self._budget = budget or WorkerBudget(self.limits)
         self._process = Process(self.sandbox, self.limits, self._budget)
         self._deaths: Counter[str] = Counter()
         self._broken = trouble
-        self._patience = patience or Patience(self.limits.call_seconds)
+        self._time_budget = time_budget or TimeBudget(self.limits.call_seconds)
         self._answered: set[str] = set()
         self._imported = False
         self._names: Any = []
@@ -139,7 +140,7 @@ class Worker:
     def lend(self, call: _Call, deadline: float) -> Any:
         """The value of a call, for another worker whose own call has to end at the deadline.
 
-        Raises StudentError: "timeout": it took longer; nobody's patience is lost.
+        Raises StudentError: "timeout": it took longer; no time budget is used.
         """
         with self._lock:
             self._ready()
@@ -152,8 +153,8 @@ class Worker:
     def close(self) -> None:
         """End the process and everything that it may have started; the next call starts another."""
         self._process.close()
-        if self._lender is not None:
-            self._lender.close()
+        if self._substitute is not None:
+            self._substitute.close()
 
     def _ask(self, call: _Call) -> _Reply:
         """The values and the head of a reply.
@@ -172,16 +173,16 @@ class Worker:
                 return self._counted(call)
 
     def _counted(self, call: _Call) -> _Reply:
-        """One call, and what it costs: of the function's deaths and of the module's patience."""
+        """One call, and what it costs: of the function's deaths and of the module's time budget."""
         function = call.function
         if (deaths := self._deaths[function]) >= self.limits.deaths:
             raise StudentError(
                 "crashed", f"it has ended its process {deaths} times; it isn't called again"
             )
         # Nor is a file imported again for a call that has no time.
-        self._patience.limit(function in self._answered)
+        self._time_budget.limit(function in self._answered)
         self._ready()
-        limit = self._budget.at_most(self._patience.limit(function in self._answered))
+        limit = self._budget.at_most(self._time_budget.limit(function in self._answered))
         try:
             reply = self._once(call, monotonic() + limit)
         except StudentError as error:
@@ -189,11 +190,11 @@ class Worker:
                 self._deaths[function] += 1
             if error.kind != "timeout":
                 raise
-            # A call that the submission's end has cut short may be a right one: it costs no patience.
+            # A call that the submission's end has cut short may be a right one: it costs nothing of the time budget.
             if over := self._budget.over:
                 raise StudentError("timeout", f"no answer yet, and {over}") from None
-            why = str(self._patience)
-            self._patience.lose(limit)
+            why = str(self._time_budget)
+            self._time_budget.lose(limit)
             raise StudentError("timeout", f"no answer within {limit:.3g} s{why}") from None
         self._answered.add(function)
         return reply
@@ -215,10 +216,10 @@ class Worker:
 
     def _usual(self, call: _Call) -> float:
         """Seconds that a plain loop would take for a call, by what the reference takes; 0 where that is not known."""
-        if self.yardstick is None:
+        if self.reference_caller is None:
             return 0.0
         with suppress(StudentError):
-            return min(LOOPS * self.yardstick.seconds(call), MOST_SECONDS)
+            return min(LOOPS * self.reference_caller.seconds(call), MOST_SECONDS)
         return 0.0
 
     def seconds(self, call: _Call) -> float:
@@ -242,7 +243,7 @@ class Worker:
                 # To import a file again may take as long as the first time, which isn't counted.
                 long = monotonic() - begun - SHORT
                 if self._imported and long > 0:
-                    self._patience.lose(long)
+                    self._time_budget.lose(long)
                 self._imported = True
                 break
             except StudentError as error:
@@ -280,25 +281,25 @@ class Worker:
         head, values = self._process.read(deadline)
         if "borrowed" in head:
             self.borrowed = True
-            # To start the lender is not the student's time.
-            deadline += self._lender_ready()
+            # To start the substitute is not the student's time.
+            deadline += self._substitute_ready()
         while "borrowed" in head:
             self._process.write(self._worked_out(head, values, deadline), deadline)
             head, values = self._process.read(deadline)
         return head, values
 
-    def _lender_ready(self) -> float:
+    def _substitute_ready(self) -> float:
         """How long that took [s]."""
         started = monotonic()
-        if self._lender is not None:
-            self._lender.load()
+        if self._substitute is not None:
+            self._substitute.load()
         return monotonic() - started
 
     def _worked_out(self, head: dict[str, Any], values: list[Any], deadline: float) -> bytes:
         """The reply of a function that the worker has been lent; within the time and memory of the call that asks."""
         name, names = head["borrowed"], head.get("names")
         if (
-            self._lender is None
+            self._substitute is None
             or name not in self._lent
             or type(names) is not list
             or len(names) > len(values)
@@ -309,7 +310,7 @@ class Worker:
         named = dict(zip(names, values[split:], strict=True))
         try:
             asked = _Call(name, tuple(values[:split]), named)
-            return pack({}, [self._lender.lend(asked, deadline)])
+            return pack({}, [self._substitute.lend(asked, deadline)])
         except StudentError as error:
             if error.kind == "timeout":
                 self._process.close()

@@ -42,7 +42,7 @@ class Limits:
     Attributes
     ----------
     call_seconds : processor time of importing the file, and of one call, if a loop in plain Python would not take
-        longer; ``Patience`` says when it is less
+        longer; ``TimeBudget`` says when it is less
     cpu_seconds : processor time of one worker process
     memory : bytes: the address space of each process, and what all workers of a submission may hold together
     deaths : processes that the calls of one function may end before it isn't called again
@@ -56,7 +56,7 @@ class Limits:
     submission_seconds: float | None = None
 
 
-class Patience:
+class TimeBudget:
     """The time that is left for calls that never end; one for all workers of a module.
 
     Parameters
@@ -98,7 +98,7 @@ class Patience:
         )
 
 
-class Budget:
+class WorkerBudget:
     """The memory of all workers of a submission, and the end of its time.
 
     Nothing that a worker says is believed: what its processes hold is asked of the system, in a thread that runs while

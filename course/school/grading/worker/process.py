@@ -16,7 +16,7 @@ from typing import Any
 from course.school.grading.errors import StudentError
 from course.school.grading.worker.clock import Clock, Used
 from course.school.grading.worker.framing import BrokenMessage, unpack
-from course.school.grading.worker.limits import Budget, Limits
+from course.school.grading.worker.limits import Limits, WorkerBudget
 from course.school.grading.worker.sandbox import Sandbox, worker_user
 
 _STARTER = ThreadPoolExecutor(1, thread_name_prefix="starts-workers")
@@ -43,7 +43,7 @@ class Process:
     budget : what it shares with the other workers of a submission
     """
 
-    def __init__(self, shut_in: Sandbox, limits: Limits, budget: Budget) -> None:
+    def __init__(self, shut_in: Sandbox, limits: Limits, budget: WorkerBudget) -> None:
         self._sandbox = shut_in
         self._limits = limits
         self._budget = budget

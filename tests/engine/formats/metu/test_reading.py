@@ -9,7 +9,7 @@ import pytest
 
 from course.base.errors import SceneError
 from course.engine.formats.metu.converting import convert
-from course.engine.formats.metu.element import Element, Notes
+from course.engine.formats.metu.element import MetuElement, Notes
 from tests.engine.formats.metu.conftest import CAMERA, MATT, Metu, tree, write
 from tests.tables import put, rows
 
@@ -225,7 +225,7 @@ def test_every_kind_is_named_however_many_there_are(metu: Metu) -> None:
 def test_what_is_told_together_is_told_by_what_it_says() -> None:
     notes = Notes()
     for number in range(24):
-        thing = Element("Thing", f"Scene/Thing{chr(65 + number)}", "box.xml:1")
+        thing = MetuElement("Thing", f"Scene/Thing{chr(65 + number)}", "box.xml:1")
         notes.add(thing, "is odd" if number % 2 else "is even")
     assert notes.texts()[19:] == [
         "box.xml:1: Scene/ThingT is odd",

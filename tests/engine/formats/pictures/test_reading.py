@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from course.base.errors import CourseWarning, SceneError
-from course.base.inputs import Bound
+from course.base.inputs import InputLimit
 from course.engine.formats.pictures.files import save
 from course.engine.formats.pictures.reading import read_picture
 from tests.engine.formats.pictures import picture_files as by_hand
@@ -466,8 +466,8 @@ def test_more_pixels_than_are_allowed_are_refused_before_they_are_read(
     height, width = read_picture(path).shape[:2]
     told = f"{width} x {height} are more than {width * height - 1} pixels; limits.pixels in the sc"
     with pytest.raises(SceneError, match=told):
-        read_picture(path, pixels=Bound(width * height - 1, "limits.pixels"))
-    read_picture(path, pixels=Bound(width * height))
+        read_picture(path, pixels=InputLimit(width * height - 1, "limits.pixels"))
+    read_picture(path, pixels=InputLimit(width * height))
 
 
 def test_pixels_are_bounded_by_the_scene_and_not_by_pillow(

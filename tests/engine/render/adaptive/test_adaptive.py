@@ -29,7 +29,7 @@ from course.engine.render.adaptive import rounds as adaptive
 from course.engine.render.adaptive.allocation import FIRST, FIRST_OF_NET, LADDER, LONGEST
 from course.engine.render.adaptive.film import PARTS, AdaptiveFilm
 from course.engine.render.adaptive.pixel_groups import TwinGroup
-from course.engine.render.adaptive.rounds import Groups, render_adaptively
+from course.engine.render.adaptive.rounds import RoundGroups, render_adaptively
 from tests.engine.render.clock import Clock
 
 MakeScene = Callable[..., Scene]
@@ -191,7 +191,7 @@ class Noise:
             self._numbers.add(item.tile.number)
 
     def render(self, error: float, budget: int = 65536) -> bool:
-        groups = Groups(self.film.width)
+        groups = RoundGroups(self.film.width)
         return render_adaptively(self.film, error, budget * self._deviation.size, groups, self)
 
 
@@ -376,7 +376,7 @@ def test_threads_and_the_order_of_the_work_do_not_change_a_bit(
     assert len(np.unique(one.film.samples)) > 4
     assert np.isfinite(one.linear).all()
     assert same(one, picture(3))
-    stretches = Groups.stretches
+    stretches = RoundGroups.stretches
     for arrange in (list.reverse, random.Random(6).shuffle):
         moved: list[bool] = []
 
@@ -388,7 +388,7 @@ def test_threads_and_the_order_of_the_work_do_not_change_a_bit(
             arrange(work)
             return work
 
-        monkeypatch.setattr(Groups, "stretches", arranged)
+        monkeypatch.setattr(RoundGroups, "stretches", arranged)
         assert same(one, picture(2))
         assert sum(moved) > 2
     monkeypatch.undo()

@@ -28,7 +28,7 @@ from course.engine.render.adaptive.foresight import Foresight, foresee
 from course.engine.render.adaptive.glimpses import Chances, glimpses
 from course.engine.render.adaptive.pixel_groups import PixelGroup
 from course.engine.render.adaptive.prior import Prior
-from course.engine.render.adaptive.seen_ahead import View
+from course.engine.render.adaptive.seen_ahead import CameraAxes
 from course.engine.render.job import Job
 from course.engine.scene.building.cameras import compile_camera
 
@@ -260,7 +260,7 @@ def test_chances_add_up_to_the_ball(make_scene: MakeScene) -> None:
     scene = small_ball(make_scene)
     world = scene.compiled.world
     camera = compile_camera(scene.loaded, scene.compiled.frame, WIDTH, HEIGHT)
-    view, parts = View.of(camera, world, WIDTH, HEIGHT), parts_of(world)
+    view, parts = CameraAxes.of(camera, world, WIDTH, HEIGHT), parts_of(world)
     chances = glimpses(world, view, [*bright_things(world, parts)], parts, 1e-4)
     # A ball's outline is a disk, drawn out by 1 / cos^3 of the angle to the view.
     aside = 1 + (0.313**2 + 0.147**2) / DISTANCE**2

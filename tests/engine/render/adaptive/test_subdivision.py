@@ -12,7 +12,7 @@ from course import CourseError, EffectError, Picture, Scene, load_scene, render
 from course.engine.core.tiles import Work
 from course.engine.functions.effects import PROJECT, Bound, Effects
 from course.engine.render.adaptive.corners import CornerFilm
-from course.engine.render.adaptive.subdivision import Functions, SubdivisionSchedule
+from course.engine.render.adaptive.subdivision import SubdivisionFunctions, SubdivisionSchedule
 from course.engine.render.summary import summarize
 from course.engine.render.threads import Pool
 from course.engine.scene.scene import Subdivision
@@ -101,7 +101,7 @@ def test_no_contrast_is_over_a_threshold_beyond_all_light(
     picture = render(ground(make_scene, (6, 4), film=film(3, threshold)))
     assert picture.receipt.rays["camera"] == 7 * 5
     bright = np.float32(3e38) * np.array([0, 1, 0, 0], np.float32)
-    functions = Functions(
+    functions = SubdivisionFunctions(
         Bound(Effects(PROJECT / "solutions")), Subdivision(threshold=threshold, depth=0)
     )
     assert functions.divides(np.tile(bright[:, None], (3, 1, 1))) == (threshold < 3e38)
@@ -302,7 +302,7 @@ def test_what_functions_return_is_looked_at(
 def test_a_level_that_is_interrupted_leaves_the_one_before() -> None:
     # The first round brings a step between columns, the second is broken off.
     corners = CornerFilm(2, 1, 3, 1)
-    functions = Functions(
+    functions = SubdivisionFunctions(
         Bound(Effects(PROJECT / "solutions")), Subdivision(threshold=0.1, depth=3)
     )
     rounds = []

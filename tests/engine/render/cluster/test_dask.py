@@ -24,7 +24,7 @@ from course.engine.functions.modules import MODULES
 from course.engine.render.cluster import connection as connection_module
 from course.engine.render.cluster import executor as cluster_module
 from course.engine.render.cluster.executor import PIECE, next_piece
-from course.engine.render.cluster.parcel import KeptScenes, Order, edition, pack, unpack
+from course.engine.render.cluster.parcel import KeptScenes, WorkOrder, edition, pack, unpack
 from course.engine.shapes.curved import sphere
 from tests.dask_cluster import Cluster
 from tests.engine.conftest import EveryStage
@@ -299,8 +299,8 @@ def test_an_address_where_nobody_answers_is_told(
     every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
-    assert connection_module.PATIENCE == 10
-    monkeypatch.setattr(connection_module, "PATIENCE", 0.5)
+    assert connection_module.ANSWER_WITHIN == 10
+    monkeypatch.setattr(connection_module, "ANSWER_WITHIN", 0.5)
     scene = every_stage()
     with socket.socket() as deaf:
         deaf.bind(("127.0.0.1", 0))
@@ -405,7 +405,7 @@ def test_a_worker_compiles_a_scene_once_and_keeps_two(
 
     monkeypatch.setattr("course.engine.render.cluster.parcel.unpack", counted)
     scene = every_stage()
-    order = Order(scene.settings, False, edition())
+    order = WorkOrder(scene.settings, False, edition())
     parcels = [pack(every_stage(seed=seed)) for seed in range(3)]
     with closing(KeptScenes()) as kept:
         first = kept.tracer(parcels[0], order)
@@ -428,7 +428,7 @@ def test_a_worker_compiles_a_scene_once_and_keeps_two(
 def test_a_worker_with_another_edition_of_the_course_refuses(every_stage: EveryStage) -> None:
     scene = every_stage()
     with pytest.raises(CourseError, match=r"a worker runs course .*, and here is course 0.0"):
-        KeptScenes().tracer(pack(scene), Order(scene.settings, False, "course 0.0"))
+        KeptScenes().tracer(pack(scene), WorkOrder(scene.settings, False, "course 0.0"))
 
 
 @pytest.mark.parametrize(

@@ -170,7 +170,7 @@ def test_whoever_stands_below_a_function_that_hangs_is_asked_with_the_reference_
             own,
             prepared(MODULE, 0),
             0,
-            lenders=lambda name: right if lent and name == "below" else None,
+            substitutes=lambda name: right if lent and name == "below" else None,
         )
     )
     assert [result.status for result in results[:2]] == [Status.TIMEOUT] * 2

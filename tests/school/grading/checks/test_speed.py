@@ -42,15 +42,15 @@ class Listening:
 @pytest.mark.parametrize(("module", "check"), CHECKS, ids=IDS)
 def test_the_reference_takes_the_arguments(module: str, check: Check) -> None:
     trial = Trial(check.function, Listening(module), generator(0, module, check))
-    trial.yardstick = Listening(module)
+    trial.reference_caller = Listening(module)
     check.run(trial)
-    for caller in (trial.caller, trial.yardstick):
+    for caller in (trial.caller, trial.reference_caller):
         assert isinstance(caller, Listening)
         assert len(caller.came) == ROUNDS
         value = caller.came[0]
         for part in value if isinstance(value, tuple) else (value,):
             assert not np.isnan(part).any()
-    for mine, theirs in zip(trial.caller.asked[0], trial.yardstick.asked[0], strict=True):
+    for mine, theirs in zip(trial.caller.asked[0], trial.reference_caller.asked[0], strict=True):
         assert mine is theirs
 
 

@@ -98,7 +98,7 @@ def test_a_worker_is_lost_and_no_result(cluster: Cluster, tmp_path: Path) -> Non
 @needs_distributed
 @pytest.mark.parametrize("listens", [False, True], ids=["nobody listens", "silent"])
 def test_a_scheduler_that_does_not_answer(monkeypatch: pytest.MonkeyPatch, listens: bool) -> None:
-    monkeypatch.setattr(connection, "PATIENCE", 1)
+    monkeypatch.setattr(connection, "ANSWER_WITHIN", 1)
     with socket.socket() as deaf:
         deaf.bind(("127.0.0.1", 0))
         if listens:

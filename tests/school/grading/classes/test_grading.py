@@ -28,9 +28,9 @@ from course.school.grading.classes import grading
 from course.school.grading.classes.bundles import totals
 from course.school.grading.classes.engines import Outcome
 from course.school.grading.classes.grading import ClassResult, Runner, grade_class
-from course.school.grading.classes.job import Graded, Job, grade_job
+from course.school.grading.classes.job import Graded, GradingJob, grade_job
 from course.school.grading.classes.keeping import _record
-from course.school.grading.classes.settings import Settings, read_settings
+from course.school.grading.classes.settings import GradingSettings, read_settings
 from course.school.grading.known import known
 
 PROJECT = Path(__file__).parents[4]
@@ -76,8 +76,8 @@ class Here:
         self.fault = fault
 
     def __call__(
-        self, _: object, items: Sequence[Job], shared: Path | bytes
-    ) -> Generator[Outcome[Job, Graded], None, None]:
+        self, _: object, items: Sequence[GradingJob], shared: Path | bytes
+    ) -> Generator[Outcome[GradingJob, Graded], None, None]:
         for job in items:
             if job.student == self.fault:
                 yield Outcome(job, None, "it broke")
@@ -90,7 +90,7 @@ def grade(
     folder: Path, engine: Any, seed: int = 0, modules: Sequence[str] = ("motion_blur",)
 ) -> ClassResult:
     return grade_class(
-        folder, folder.parent / "out", Settings(seed, tuple(modules)), Runner(engine)
+        folder, folder.parent / "out", GradingSettings(seed, tuple(modules)), Runner(engine)
     )
 
 
@@ -238,8 +238,8 @@ def test_a_check_with_an_error_of_its_own_is_run_again(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB)
 
     def doubtful(
-        _: object, items: Sequence[Job], shared: Path | bytes
-    ) -> Generator[Outcome[Job, Graded], None, None]:
+        _: object, items: Sequence[GradingJob], shared: Path | bytes
+    ) -> Generator[Outcome[GradingJob, Graded], None, None]:
         for job in items:
             graded = grade_job(job, shared)
             first, *rest = graded.report.results
@@ -263,7 +263,7 @@ def test_results_may_not_lie_among_submissions(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB)
     for out in (folder, folder / "out"):
         with pytest.raises(CourseError, match="choose a folder elsewhere"):
-            grade_class(folder, out, Settings(0, ("motion_blur",)), Runner(Here()))
+            grade_class(folder, out, GradingSettings(0, ("motion_blur",)), Runner(Here()))
 
 
 @pytest.mark.parametrize(

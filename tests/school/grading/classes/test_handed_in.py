@@ -272,7 +272,7 @@ def test_a_tar_whose_head_claims_a_name_without_end(tmp_path: Path) -> None:
 
 def test_many_archives_share_one_budget(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
-        entries.Budget, "__init__", lambda self: vars(self).update(entries=5, bytes=99)
+        entries.ArchiveBudget, "__init__", lambda self: vars(self).update(entries=5, bytes=99)
     )
     content = zipped(**{f"{i}.py": b"" for i in range(3)})
     both = [Entry(PurePosixPath(f"{i}.zip"), lambda _: content) for i in range(2)]

@@ -15,16 +15,16 @@ from traitlets.config import Config
 
 from benchmarks.mutants.cells import in_cells
 from course.engine.functions.modules import COURSE
-from course.school.grading.classes.job import Job, grade_job
+from course.school.grading.classes.job import GradingJob, grade_job
 from course.school.grading.classes.keeping import fingerprint
 from course.school.grading.classes.notebooks import Notebook, read_notebook
 from course.school.grading.classes.notebooks import converted as converted_notebook
-from course.school.grading.classes.settings import Settings
+from course.school.grading.classes.settings import GradingSettings
 from course.school.grading.classes.submitted import find_submissions
 from course.school.grading.grading import grade
 from course.school.grading.known import known
 from course.school.grading.references import references
-from course.school.grading.reports.classes import Line, write_class_page, write_grades
+from course.school.grading.reports.classes import ClassLine, write_class_page, write_grades
 from course.school.grading.submissions import SubmissionError
 
 BLUR = "def displacement(velocity, time):\n    return np.asarray(velocity)[:, None] * time * {factor}\n"
@@ -378,15 +378,15 @@ def test_student_and_class_read_what_was_left_out(tmp_path: Path) -> None:
     (tmp_path / "class" / "ada").mkdir(parents=True)
     (tmp_path / "class" / "ada" / "motion_blur.ipynb").write_bytes(notebook(*cells))
     (one,) = find_submissions(tmp_path / "class", ["motion_blur"])
-    settings = Settings(0, ("motion_blur",))
-    job = Job("ada", {}, "stopped here", settings, remarks=one.remarks)
+    settings = GradingSettings(0, ("motion_blur",))
+    job = GradingJob("ada", {}, "stopped here", settings, remarks=one.remarks)
     graded = grade_job(job, b"")
     told = "motion_blur.ipynb: cell 1, line 2: left out: files = !ls"
     assert len(graded.files) == 5
     for name, content in graded.files.items():
         assert told in content.decode(), name
-    write_grades([graded.report], tmp_path / "grades.csv", {"ada": Line(one.remarks)})
-    write_class_page([graded.report], [], tmp_path / "class.html", {"ada": Line(one.remarks)})
+    write_grades([graded.report], tmp_path / "grades.csv", {"ada": ClassLine(one.remarks)})
+    write_class_page([graded.report], [], tmp_path / "class.html", {"ada": ClassLine(one.remarks)})
     for name in ("grades.csv", "class.html"):
         assert told in (tmp_path / name).read_text("utf-8")
     changed = replace(one, remarks=())

@@ -15,7 +15,7 @@ from course.school.grading.checks import result as results
 from course.school.grading.checks.result import Status
 from course.school.grading.classes import grading, regrading
 from course.school.grading.classes.engines import Outcome
-from course.school.grading.classes.job import Graded, Job, report_files, troubled
+from course.school.grading.classes.job import Graded, GradingJob, report_files, troubled
 from course.school.grading.report import Report
 
 SOURCE = "def displacement(velocity, time):\n    return velocity[:, None] * time\n"
@@ -45,7 +45,7 @@ class Engine:
         self.points = points
         self.graded: list[str] = []
 
-    def __call__(self, _: object, items: Sequence[Job], __: object) -> Any:
+    def __call__(self, _: object, items: Sequence[GradingJob], __: object) -> Any:
         for job in items:
             self.graded.append(job.student)
             if job.student not in self.points:

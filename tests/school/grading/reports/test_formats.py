@@ -16,7 +16,7 @@ import pytest
 from course.school.grading.checks.result import Status
 from course.school.grading.classes.policy import Mark
 from course.school.grading.report import Report
-from course.school.grading.reports.classes import Line, safe_cell, write_grades
+from course.school.grading.reports.classes import ClassLine, safe_cell, write_grades
 from course.school.grading.reports.formats import (
     as_json,
     as_xml,
@@ -282,8 +282,8 @@ def test_grades_have_a_column_for_each_function(report: Report, tmp_path: Path) 
 def test_grades_by_a_policy_and_remarks(report: Report, tmp_path: Path) -> None:
     broken = Report("eve", (), trouble="no zip file")
     lines = {
-        "ada": Line(("x was graded as y",), Mark(26.0, 20.8, 21.0, ("2 days late: -20 %",))),
-        "eve": Line(("=1+1",)),
+        "ada": ClassLine(("x was graded as y",), Mark(26.0, 20.8, 21.0, ("2 days late: -20 %",))),
+        "eve": ClassLine(("=1+1",)),
     }
     write_grades([report, broken], tmp_path / "grades.csv", lines, 100.0)
     with (tmp_path / "grades.csv").open(encoding="utf-8", newline="") as file:

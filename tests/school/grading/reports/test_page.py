@@ -20,7 +20,7 @@ from course.school.grading.classes.policy import Mark
 from course.school.grading.classes.roster import Matched
 from course.school.grading.references import prepared, reference
 from course.school.grading.report import FunctionResults, Report, docs_page, reproduce
-from course.school.grading.reports.classes import Line, write_class_page
+from course.school.grading.reports.classes import ClassLine, write_class_page
 from course.school.grading.reports.page import as_page
 
 VOID = {"meta", "img", "br"}
@@ -335,7 +335,7 @@ def test_points_have_two_decimals_at_most(report: Report, tmp_path: Path) -> Non
     results = tuple(replace(one, points=one.points / 3, of=one.of / 3) for one in report.results)
     thirds = replace(report, results=results)
     assert "0 of 0.83" in read(thirds).text
-    lines = {"ada": Line((), Mark(100 / 3, 200 / 3, 500 / 3))}
+    lines = {"ada": ClassLine((), Mark(100 / 3, 200 / 3, 500 / 3))}
     write_class_page([thirds], [], tmp_path / "class.html", lines, 100.0)
     for text in (as_page(thirds), (tmp_path / "class.html").read_text(encoding="utf-8")):
         assert not re.search(r"(?<![\w.])\d+\.\d{3,} (of|points)|of \d+\.\d{3,}", text)
@@ -368,10 +368,10 @@ def test_remarks_scores_and_the_roster_are_on_the_page(
 ) -> None:
     broken = Report("eve", (), trouble="no zip file")
     lines = {
-        "ada": Line(
+        "ada": ClassLine(
             (f"{hostile} was graded as glossy.py",), Mark(52.5, 47.25, 47.5, ("1 day late",))
         ),
-        "eve": Line(("typed into Moodle",)),
+        "eve": ClassLine(("typed into Moodle",)),
     }
     matched = Matched({}, ("Lee, Ann", hostile), ("eve",))
     write_class_page(

@@ -21,7 +21,7 @@ from course.engine.functions.effects import PROJECT, Effects
 from course.engine.render.picture import Picture
 from course.engine.render.render import render
 from course.engine.scene.scene import Scene, load_scene
-from course.school.grading.progress import Progress
+from course.school.grading.progress import FunctionProgress
 from course.school.grading.reports import portfolio as made
 from course.school.grading.reports.drawing import Panel, draw_curve
 from course.school.grading.reports.page import render as fill
@@ -39,8 +39,8 @@ SPHERE = "lights: [{type: sphere, center: [3, 4, 1], radius: 1, intensity: [40, 
 POINT = "lights: [{type: point, position: [3, 4, 1], intensity: [40, 40, 40]}]\n"
 
 
-def progress(module: str, name: str, state: str) -> Progress:
-    return Progress(module, name, state, 10.0, 10.0, "", "", "", "", f"{module}.py", 1)
+def progress(module: str, name: str, state: str) -> FunctionProgress:
+    return FunctionProgress(module, name, state, 10.0, 10.0, "", "", "", "", f"{module}.py", 1)
 
 
 @pytest.fixture
@@ -253,7 +253,12 @@ def test_modules_share_what_is_left_of_the_time(
     now = [0.0]
 
     def rendered(
-        module: str, functions: tuple[Progress, ...], _e: object, _s: object, t: float, _c: object
+        module: str,
+        functions: tuple[FunctionProgress, ...],
+        _e: object,
+        _s: object,
+        t: float,
+        _c: object,
     ) -> Shown:
         shares.append(t)
         now[0] += 10

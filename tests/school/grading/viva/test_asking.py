@@ -8,7 +8,7 @@ from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
 from course.school.grading.checks.check import References
 from course.school.grading.reports.viva import drawings, viva_page
-from course.school.grading.viva.asking import Asked, viva
+from course.school.grading.viva.asking import VivaQuestion, viva
 from course.school.grading.worker.sandbox import plain
 
 SOLUTIONS = PROJECT / "solutions"
@@ -18,13 +18,15 @@ def source(module: str) -> str:
     return (SOLUTIONS / f"{module}.py").read_text(encoding="utf-8")
 
 
-def asked(sources: dict[str, str], references: References, questions: int = 3) -> list[Asked]:
+def asked(
+    sources: dict[str, str], references: References, questions: int = 3
+) -> list[VivaQuestion]:
     encoded = {module: text.encode() for module, text in sources.items()}
     return list(viva(encoded, SOLUTIONS, references, plain(), questions=questions))
 
 
 @pytest.fixture(scope="module")
-def two(usual_references: References) -> list[Asked]:
+def two(usual_references: References) -> list[VivaQuestion]:
     return asked(
         {"soft_shadows": source("soft_shadows"), "motion_blur": source("motion_blur")},
         usual_references,
@@ -32,7 +34,9 @@ def two(usual_references: References) -> list[Asked]:
     )
 
 
-def test_questions_are_about_different_modules_and_the_students_lines(two: list[Asked]) -> None:
+def test_questions_are_about_different_modules_and_the_students_lines(
+    two: list[VivaQuestion],
+) -> None:
     assert {one.module for one in two} == {"soft_shadows", "motion_blur"}
     for one in two:
         lines = source(one.module).splitlines()
@@ -41,7 +45,7 @@ def test_questions_are_about_different_modules_and_the_students_lines(two: list[
         assert f"line {one.change.line} of `{one.module}.py`" in one.asks
 
 
-def test_an_answer_shows_what_the_change_does(two: list[Asked]) -> None:
+def test_an_answer_shows_what_the_change_does(two: list[VivaQuestion]) -> None:
     for one in two:
         answer = one.answer
         assert answer.visible
@@ -57,13 +61,13 @@ def test_an_answer_shows_what_the_change_does(two: list[Asked]) -> None:
 
 
 def test_the_same_code_gets_the_same_questions(
-    two: list[Asked], usual_references: References
+    two: list[VivaQuestion], usual_references: References
 ) -> None:
     (again,) = asked({two[0].module: source(two[0].module)}, usual_references, 1)
     assert again.module == two[0].module
 
 
-def test_the_page_folds_its_answers_away(two: list[Asked]) -> None:
+def test_the_page_folds_its_answers_away(two: list[VivaQuestion]) -> None:
     page = viva_page("Ada <script>", two, "")
     assert "Ada &lt;script&gt;" in page
     body, *answers = page.split("<details")

@@ -113,8 +113,8 @@ def f(seconds):
 
 
 def test_a_late_call_may_take_a_multiple_of_what_the_reference_takes() -> None:
-    with Worker("m", SLEEPS) as yardstick, Worker("m", SLEEPS) as worker:
-        worker.yardstick = yardstick
+    with Worker("m", SLEEPS) as reference_caller, Worker("m", SLEEPS) as worker:
+        worker.reference_caller = reference_caller
         taken = worker._usual(_Call("f", (0.02,), {}))
         assert 0.02 * LOOPS <= taken <= MOST_SECONDS
         assert worker._usual(_Call("f", (0.2,), {})) == MOST_SECONDS

@@ -18,7 +18,7 @@ from course.school.grading.grading import grade
 from course.school.grading.pictures.whole import Together
 from course.school.grading.report import Report
 from course.school.grading.worker.client import Worker
-from course.school.grading.worker.limits import ALTOGETHER, NOT_RUN, Limits, Patience
+from course.school.grading.worker.limits import ALTOGETHER, NOT_RUN, Limits, TimeBudget
 from tests.school.grading.worker.graded import arrays, quick, solution
 
 MODULE = "motion_blur"
@@ -35,13 +35,13 @@ EXIT = "import os\nos._exit(3)"
 def lost(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """The times that were waited in vain."""
     found: list[float] = []
-    usual = Patience.lose
+    usual = TimeBudget.lose
 
-    def lose(patience: Patience, seconds: float) -> None:
+    def lose(time_budget: TimeBudget, seconds: float) -> None:
         found.append(seconds)
-        usual(patience, seconds)
+        usual(time_budget, seconds)
 
-    monkeypatch.setattr(Patience, "lose", lose)
+    monkeypatch.setattr(TimeBudget, "lose", lose)
     return found
 
 

@@ -17,7 +17,7 @@ from course.school.grading.grading import grade
 from course.school.grading.looked import EARLIER_RESULT
 from course.school.grading.worker import client
 from course.school.grading.worker.client import Worker
-from course.school.grading.worker.limits import NOT_RUN, Budget, Limits
+from course.school.grading.worker.limits import NOT_RUN, Limits, WorkerBudget
 from course.school.grading.worker.process import MOST_PRINTED, Process
 from tests.school.grading.worker.graded import arrays, quick, solution
 
@@ -184,10 +184,10 @@ def test_who_ends_its_own_process_does_so_four_times_at_most(starts: list[str]) 
 
 def borrowing(module: str, lent: str, body: str, limits: Limits) -> tuple[Worker, Worker]:
     """A worker whose f calls a function of the module that it is lent, and whoever lends it."""
-    budget = Budget(limits)
+    budget = WorkerBudget(limits)
     right = Worker(module, solution(module).encode(), limits, budget=budget)
     source = f"import numpy as np\ndef f(*given):\n    return {body}\n".encode()
-    return Worker(module, source, limits, lender=right, lent=[lent], budget=budget), right
+    return Worker(module, source, limits, substitute=right, lent=[lent], budget=budget), right
 
 
 @pytest.fixture
@@ -296,7 +296,7 @@ def g(megabytes):
 
 def test_all_workers_of_a_submission_hold_no_more_than_one_may() -> None:
     limits = Limits(call_seconds=60)
-    budget = Budget(Limits(memory=400 << 20))
+    budget = WorkerBudget(Limits(memory=400 << 20))
     with (
         Worker("m", HOLDS, limits, budget=budget) as one,
         Worker("n", HOLDS, limits, budget=budget) as other,

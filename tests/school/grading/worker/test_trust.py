@@ -13,11 +13,11 @@ from course.engine.functions.effects import PROJECT
 from course.school.grading.classes import grading, job
 from course.school.grading.classes.engines import Outcome
 from course.school.grading.classes.grading import Runner, grade_class
-from course.school.grading.classes.settings import Settings
+from course.school.grading.classes.settings import GradingSettings
 from course.school.grading.report import UNPROTECTED
 from course.school.grading.worker.sandbox import NotProtected, Sandbox, plain
 
-SETTINGS = Settings(0, ("motion_blur",))
+SETTINGS = GradingSettings(0, ("motion_blur",))
 
 pytestmark = pytest.mark.usefixtures("references_at_hand")
 
