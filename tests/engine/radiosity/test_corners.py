@@ -5,11 +5,11 @@ import pytest
 
 from course.engine.radiosity.corners import at_corners
 from course.engine.radiosity.patches import Patches
-from course.engine.scene.building.cutting import Triangles, bisected
+from course.engine.scene.building.cutting import SharedTriangles, bisected
 from tests.engine.radiosity.test_patches import square
 
 
-def uneven(seed: int, tilted: bool) -> Triangles:
+def uneven(seed: int, tilted: bool) -> SharedTriangles:
     """A square of 3 x 3, halved here and there."""
     rng = np.random.default_rng(seed)
     triangles = square(3)
@@ -17,11 +17,13 @@ def uneven(seed: int, tilted: bool) -> Triangles:
         triangles = bisected(triangles, rng.random(triangles.size) < 0.3)
     if tilted:
         turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-        triangles = Triangles(triangles.vertices @ turn.T, triangles.corners, triangles.origin)
+        triangles = SharedTriangles(
+            triangles.vertices @ turn.T, triangles.corners, triangles.origin
+        )
     return triangles
 
 
-def patches(triangles: Triangles, surface: np.ndarray | None = None) -> Patches:
+def patches(triangles: SharedTriangles, surface: np.ndarray | None = None) -> Patches:
     grey = np.full((3, triangles.size), 0.5, np.float32)
     if surface is None:
         surface = np.zeros(triangles.size, np.intp)
@@ -32,7 +34,7 @@ def both_sides(front: np.ndarray) -> np.ndarray:
     return np.concatenate((front, np.zeros_like(front)), axis=1).astype(np.float32)
 
 
-def told(triangles: Triangles) -> np.ndarray:
+def told(triangles: SharedTriangles) -> np.ndarray:
     """(3, T) which corners have patches enough around them, and neighbours that have.
 
     A corner of the square that one patch has, or two, knows no more than those say, and its patches tell the others.
@@ -73,7 +75,7 @@ def test_the_mean_would_not_be() -> None:
 
 
 def test_one_patch_is_as_bright_at_its_corners() -> None:
-    one = Triangles(np.eye(3), np.array([[0, 1, 2]]), np.zeros(1, np.intp))
+    one = SharedTriangles(np.eye(3), np.array([[0, 1, 2]]), np.zeros(1, np.intp))
     found = at_corners(patches(one), both_sides(np.array([[1.0], [2.0], [3.0]])))
     assert np.allclose(found[:, :, 0], [[1], [2], [3]], rtol=1e-6)
 

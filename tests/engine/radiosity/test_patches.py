@@ -8,20 +8,20 @@ import pytest
 from course.base.errors import SceneError
 from course.engine.functions.effects import PROJECT
 from course.engine.radiosity.patches import make_patches
-from course.engine.scene.building.cutting import Triangles, bisected, undivided
+from course.engine.scene.building.cutting import SharedTriangles, bisected, undivided
 from tests.conftest import MakeScene
 from tests.engine.radiosity.rooms import CAMERA, plates
 from tests.tables import put, rows
 
 
-def angles(triangles: Triangles) -> np.ndarray:
+def angles(triangles: SharedTriangles) -> np.ndarray:
     p = triangles.vertices[triangles.corners]
     a, b = np.roll(p, -1, axis=1) - p, np.roll(p, 1, axis=1) - p
     cosine = (a * b).sum(axis=2) / np.linalg.norm(a, axis=2) / np.linalg.norm(b, axis=2)
     return np.arccos(np.clip(cosine, -1, 1))
 
 
-def square(n: int) -> Triangles:
+def square(n: int) -> SharedTriangles:
     """Rows of n by n unit squares of two triangles each."""
     x, y = np.meshgrid(np.arange(n + 1.0), np.arange(n + 1.0))
     vertices = np.stack((x.ravel(), y.ravel(), np.zeros(x.size)), axis=1)
@@ -33,7 +33,7 @@ def square(n: int) -> Triangles:
     return undivided(vertices, corners)
 
 
-def assert_whole_edges(triangles: Triangles, outline: float) -> None:
+def assert_whole_edges(triangles: SharedTriangles, outline: float) -> None:
     """Inside, every edge belongs to two triangles that go along it in opposite ways."""
     c = triangles.corners
     edges = np.concatenate((c[:, :2], c[:, 1:], c[:, [2, 0]]))
