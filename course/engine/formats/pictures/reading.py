@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import threading
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, Final
 
@@ -32,9 +33,6 @@ from course.engine.formats.pictures.radiance import radiance_header
 if TYPE_CHECKING:
     from OpenImageIO import ImageInput, ImageSpec
     from PIL.Image import Image
-
-LINEAR: Final = (".exr", ".hdr")
-"""Suffixes of the formats that hold radiance, up to a scale."""
 
 MAGIC: Final = (b"\x76\x2f\x31\x01", b"#?RADIANCE", b"#?RGBE")
 """The first bytes of their files."""
@@ -82,8 +80,8 @@ def read_picture(
     """
     with opened(path, "picture", bound, SceneError) as stream:
         try:
-            if path.suffix.lower() in LINEAR:
-                found = _read_linear(stream, path, pixels, codes, layer)
+            if read := LINEAR.get(path.suffix.lower()):
+                found = read(stream, path, pixels, codes, layer)
             elif layer is not None:
                 raise ValueError(f"it has no layer {layer!r}; only an EXR file has layers")
             else:
@@ -293,3 +291,10 @@ def _check_linear(spec: ImageSpec, turned: int) -> None:
         raise ValueError(
             "its pixels don't run in rows from the upper left corner; open it in a picture editor, and save it anew"
         )
+
+
+LINEAR: Final[dict[str, Callable[[BinaryIO, Path, InputLimit, bool, str | None], ReadPicture]]] = {
+    ".exr": _read_linear,
+    ".hdr": _read_linear,
+}
+"""What reads the formats that hold radiance, up to a scale, by suffix; arguments as ``read_picture`` has them."""
