@@ -1,7 +1,11 @@
-"""Every folder of tests belongs to one wing, so that `make test WING=` of all wings leaves none out."""
+"""The wings: every folder of tests belongs to one, and their code keeps to a budget."""
 
 import re
 from pathlib import Path
+
+import pytest
+
+from tests.code_lines import code_lines
 
 TESTS = Path(__file__).parent
 
@@ -19,3 +23,13 @@ def test_each_folder_of_tests_belongs_to_one_wing() -> None:
     assert folders == sorted(
         path.name for path in TESTS.iterdir() if any(path.glob("**/test_*.py"))
     )
+
+
+BUDGET = {"engine": 28_500, "school": 21_200}
+"""Lines that carry code. To raise one, say in the commit what a user gets for it."""
+
+
+@pytest.mark.parametrize("wing", BUDGET)
+def test_a_wing_keeps_to_its_budget(wing: str) -> None:
+    files = (TESTS.parent / "course" / wing).rglob("*.py")
+    assert sum(code_lines(path.read_text(encoding="utf-8")) for path in files) <= BUDGET[wing]
