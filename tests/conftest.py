@@ -4,7 +4,9 @@ import gc
 import json
 import os
 import signal
+import sys
 from collections.abc import Callable, Generator
+from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -17,12 +19,14 @@ from course import Scene, load_scene
 from course.engine.render import which_loops
 from course.engine.render.threads import default_threads
 from tests.browser import browser
+from tests.compiling import alone, take_turns
 from tests.forms import FORMS
 from tests.once import Once, made_once, shared_folder
 
 __all__ = ["browser"]
 
 MakeScene = Callable[..., Scene]
+Compiling = Callable[[], AbstractContextManager[None]]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 # What a test renders must not depend on those before it: loops are compiled where a test asks for them.
@@ -54,6 +58,16 @@ def pytest_collection() -> Generator[None, object, object]:
 def once(tmp_path_factory: pytest.TempPathFactory) -> Once:
     """Have something made by one process of this run for all of them."""
     return partial(made_once, shared_folder(tmp_path_factory))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def compiled_in_turns(tmp_path_factory: pytest.TempPathFactory) -> Compiling:
+    """While it is open no other process of this run compiles loops; this one waits for its turn, too."""
+    folder = shared_folder(tmp_path_factory)
+    # Where no test module has asked for it, nothing is compiled in this process.
+    if "numba" in sys.modules:
+        take_turns(folder)
+    return partial(alone, folder)
 
 
 @pytest.fixture

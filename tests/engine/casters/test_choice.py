@@ -2,6 +2,7 @@
 
 import json
 import os
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import pytest
 from course import load_scene, render
 from course.base.errors import CourseError
 from course.engine.casters import choice
+from tests.conftest import Compiling
 from tests.forms import needs_numba
 from tests.processes import python
 
@@ -99,9 +101,15 @@ def test_a_caster_that_is_unknown_or_missing_is_told_with_the_remedy(
     ],
 )
 def test_without_embreex_the_picture_is_the_same(
-    tmp_path: Path, hidden: str, scene: str, compiled: bool, caster: str
+    tmp_path: Path,
+    compiled_in_turns: Compiling,
+    hidden: str,
+    scene: str,
+    compiled: bool,
+    caster: str,
 ) -> None:
-    picture, receipt = rendered(tmp_path, hidden, scene, compiled)
+    with compiled_in_turns() if caster == "numba" else nullcontext():
+        picture, receipt = rendered(tmp_path, hidden, scene, compiled)
     assert receipt["caster"] == caster
     assert receipt["embree_seconds"] > 0
     mine = render(load_scene(ROOT / f"scenes/{scene}.yaml"), spp=4, size=(90, 60), threads=1)

@@ -10,6 +10,7 @@ from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT
 from course.engine.loops import library
 from course.engine.loops.library import NATIVE, WIDTH_VARIABLE
+from tests.conftest import Compiling
 from tests.processes import python
 
 if not library.available() or library.library() is None:
@@ -27,8 +28,11 @@ print(library.width(), sha256(picture.linear.tobytes()).hexdigest(), picture.rec
 
 
 @pytest.mark.parametrize("width", sorted({*NATIVE} - {library.width()}))
-def test_every_width_makes_the_picture_of_single_rays(width: int) -> None:
-    done = python("-c", PROGRAM, SCENE, environment={**os.environ, WIDTH_VARIABLE: str(width)})
+def test_every_width_makes_the_picture_of_single_rays(
+    width: int, compiled_in_turns: Compiling
+) -> None:
+    with compiled_in_turns():
+        done = python("-c", PROGRAM, SCENE, environment={**os.environ, WIDTH_VARIABLE: str(width)})
     single = render(load_scene(SCENE), spp=4, size=(30, 20), sampler="sobol", compiled=False)
     expected = sha256(single.linear.tobytes()).hexdigest()
     assert done.stdout.split() == [str(width), expected, str(single.receipt.rays["shadow"])]
