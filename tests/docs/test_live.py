@@ -105,7 +105,7 @@ def test_the_keyboard_moves_the_sliders(browser: Any, site: Path) -> None:
 
 
 def test_without_webgl_the_page_has_its_other_pictures(browser: Any, site: Path) -> None:
-    with untroubled(browser) as page:
+    with untroubled(browser, alone=True) as page:
         page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
         page.goto((site / "modules" / "soft_shadows.html").as_uri())
         page.wait_for_timeout(200)
@@ -114,7 +114,7 @@ def test_without_webgl_the_page_has_its_other_pictures(browser: Any, site: Path)
 
 
 def test_a_phone_is_wide_enough(browser: Any, site: Path) -> None:
-    with untroubled(browser, viewport={"width": 390, "height": 800}) as page:
+    with untroubled(browser, alone=True, viewport={"width": 390, "height": 800}) as page:
         # In their full size.
         script = (PROJECT / "docs" / "_static" / "live.js").read_text(encoding="utf-8")
         page.route(

@@ -91,7 +91,7 @@ def test_an_address_with_another_number_opens_a_slide(browser: Any, site: Path) 
 
 
 def test_the_speakers_window_follows_and_leads(browser: Any, site: Path) -> None:
-    with untroubled(browser) as page:
+    with untroubled(browser, alone=True) as page:
         page.goto(f"{(site / 'modules' / 'glossy.html').as_uri()}?slides=3")
         page.wait_for_selector(DECK)
         with page.context.expect_page() as opened:
