@@ -22,7 +22,7 @@ from course.school.grading.known import known
 from tests.dask_cluster import Cluster
 
 PROJECT = Path(__file__).parents[4]
-STUB = (PROJECT / "assignments" / "motion_blur.py").read_text("utf-8")
+STUB = (PROJECT / "assignments" / "thin_lens.py").read_text("utf-8")
 
 needs_distributed = pytest.mark.skipif(
     find_spec("distributed") is None, reason="distributed isn't installed (the extra dask)"
@@ -40,7 +40,7 @@ def cluster(tmp_path: Path) -> Iterator[Cluster]:
 
 
 def command(folder: Path, out: Path, *arguments: str) -> list[str]:
-    module = ("--modules", "motion_blur", "--seed", "3")
+    module = ("--modules", "thin_lens", "--seed", "3")
     return ["grade", str(folder), "--out", str(out), *module, *arguments]
 
 
@@ -61,13 +61,13 @@ def results(out: Path) -> dict[str, Any]:
 @needs_distributed
 def test_a_worker_is_lost_and_no_result(cluster: Cluster, tmp_path: Path) -> None:
     folder, here, there = tmp_path / "class", tmp_path / "here", tmp_path / "there"
-    collection = known("motion_blur")
+    collection = known("thin_lens")
     sources = {one.name: one.source for one in (collection[0], collection[-1])}
     for number in range(3):
         sources[f"slow{number}"] = f"import time\ntime.sleep(0.7)\n{STUB}\n# {number}"
     for name, source in sources.items():
         (folder / name).mkdir(parents=True)
-        (folder / name / "motion_blur.py").write_text(source)
+        (folder / name / "thin_lens.py").write_text(source)
     (folder / "damaged.zip").write_bytes(b"PK")
 
     remote = ("--engine", "dask", "--address", cluster.address)

@@ -34,27 +34,27 @@ from course.school.grading.classes.settings import GradingSettings, read_setting
 from course.school.grading.known import known
 
 PROJECT = Path(__file__).parents[4]
-RIGHT = (PROJECT / "solutions" / "motion_blur.py").read_text("utf-8")
-STUB = (PROJECT / "assignments" / "motion_blur.py").read_text("utf-8")
+RIGHT = (PROJECT / "solutions" / "thin_lens.py").read_text("utf-8")
+STUB = (PROJECT / "assignments" / "thin_lens.py").read_text("utf-8")
 SLOW = "import time\ntime.sleep(20)\n" + STUB
 # Every call within its limit, and all of them together longer than anybody waits.
 LONG = STUB + "".join(
-    f"\ndef {name}(*_):\n    import time\n    time.sleep(6)\n" for name in COURSE["motion_blur"]
+    f"\ndef {name}(*_):\n    import time\n    time.sleep(6)\n" for name in COURSE["thin_lens"]
 )
 ENGINE = "course.cli.classes.ClassOptions.class_engine"
-WORTH = pytest.approx(totals(["motion_blur"])["motion_blur"])
+WORTH = pytest.approx(totals(["thin_lens"])["thin_lens"])
 FILES = {"report.html", "results.json", "gradescope.json", "prairielearn.json", "junit.xml"}
 
 
 def hand_in(folder: Path, **sources: str) -> Path:
     for student, source in sources.items():
         (folder / student).mkdir(parents=True, exist_ok=True)
-        (folder / student / "motion_blur.py").write_text(source)
+        (folder / student / "thin_lens.py").write_text(source)
     return folder
 
 
 def run(*arguments: object) -> Result:
-    return CliRunner().invoke(commands, ["grade", *map(str, arguments), "--modules", "motion_blur"])
+    return CliRunner().invoke(commands, ["grade", *map(str, arguments), "--modules", "thin_lens"])
 
 
 def read(out: Path, student: str) -> dict[str, Any]:
@@ -87,7 +87,7 @@ class Here:
 
 
 def grade(
-    folder: Path, engine: Any, seed: int = 0, modules: Sequence[str] = ("motion_blur",)
+    folder: Path, engine: Any, seed: int = 0, modules: Sequence[str] = ("thin_lens",)
 ) -> ClassResult:
     return grade_class(
         folder, folder.parent / "out", GradingSettings(seed, tuple(modules)), Runner(engine)
@@ -100,17 +100,17 @@ def test_a_file_of_which_nothing_can_be_called_is_remarked_on(tmp_path: Path) ->
     with (tmp_path / "out" / "grades.csv").open() as file:
         rows = {row["student"]: row["remarks"] for row in csv.DictReader(file)}
     assert rows["ada"] == ""
-    assert rows["bob"].startswith("motion_blur.py can't be imported: ZeroDivisionError")
-    assert rows["eve"] == "motion_blur.py is empty"
+    assert rows["bob"].startswith("thin_lens.py can't be imported: ZeroDivisionError")
+    assert rows["eve"] == "thin_lens.py is empty"
 
 
 def test_a_class_from_folders_and_zip_files(tmp_path: Path) -> None:
-    wrong = next(one for one in known("motion_blur") if not one.right)
+    wrong = next(one for one in known("thin_lens") if one.name == "circle_twice")
     folder = hand_in(tmp_path / "class", ada=RIGHT, eve=RIGHT, bob=wrong.source)
     with zipfile.ZipFile(folder / "cleo.zip", "w") as archive:
-        archive.writestr("work/motion_blur.py", STUB)
+        archive.writestr("work/thin_lens.py", STUB)
     with zipfile.ZipFile(folder / "dan.zip", "w") as archive:
-        archive.writestr("../motion_blur.py", STUB)
+        archive.writestr("../thin_lens.py", STUB)
     out = tmp_path / "out"
     result = run(folder, "--out", out, "--jobs", 2, "--seed", 11)
 
@@ -125,7 +125,7 @@ def test_a_class_from_folders_and_zip_files(tmp_path: Path) -> None:
     for name in FILES:
         assert "--seed" not in (out / "ada" / name).read_text()
         assert "--seed" not in (out / "bob" / name).read_text()
-    assert "course check motion_blur --only" in (out / "bob" / "report.html").read_text()
+    assert "course check thin_lens --only" in (out / "bob" / "report.html").read_text()
     assert 0 < read(out, "bob")["score"] < 1
     assert read(out, "cleo")["score"] == 0
     assert "leads out" in read(out, "dan")["trouble"]
@@ -170,7 +170,7 @@ def test_only_what_has_changed_is_graded_again(tmp_path: Path) -> None:
     grade(folder, here, seed=1)
     assert here.graded == ["ada", "bob", "cleo"]
     here.graded.clear()
-    grade(folder, here, seed=1, modules=("motion_blur", "thin_lens"))
+    grade(folder, here, seed=1, modules=("thin_lens", "film"))
     assert here.graded == ["ada", "bob", "cleo"]
 
 
@@ -255,7 +255,7 @@ def test_a_check_with_an_error_of_its_own_is_run_again(tmp_path: Path) -> None:
 
 
 def test_the_last_check_is_for_all_modules_together() -> None:
-    assert with_whole(("motion_blur",)) == ("motion_blur",)
+    assert with_whole(("thin_lens",)) == ("thin_lens",)
     assert with_whole(tuple(COURSE)) == (*COURSE, "whole")
 
 
@@ -263,7 +263,7 @@ def test_results_may_not_lie_among_submissions(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB)
     for out in (folder, folder / "out"):
         with pytest.raises(CourseError, match="choose a folder elsewhere"):
-            grade_class(folder, out, GradingSettings(0, ("motion_blur",)), Runner(Here()))
+            grade_class(folder, out, GradingSettings(0, ("thin_lens",)), Runner(Here()))
 
 
 @pytest.mark.parametrize(
@@ -284,7 +284,7 @@ def test_wrong_usage(tmp_path: Path, arguments: list[str], told: str) -> None:
 def start(folder: Path, out: Path, *arguments: str) -> subprocess.Popen[str]:
     command = [sys.executable, "-m", "course", "grade", str(folder), "--out", str(out), *arguments]
     return subprocess.Popen(
-        [*command, "--modules", "motion_blur"],
+        [*command, "--modules", "thin_lens"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -345,7 +345,7 @@ def test_an_interruption_is_quick_and_keeps_what_is_done(tmp_path: Path) -> None
     kept = (out / "ada" / "results.json").read_bytes()
     here = Here()
     hand_in(folder, bob=STUB)
-    (folder / "cleo" / "motion_blur.py").unlink()
+    (folder / "cleo" / "thin_lens.py").unlink()
     assert grade(folder, here).graded == 2
     assert here.graded == ["bob", "cleo"]
     assert (out / "ada" / "results.json").read_bytes() == kept

@@ -84,18 +84,18 @@ def test_a_folder_to_work_in_is_made_rendered_and_checked(
     scene = "scenes/before/supersampling.yaml"
     rendered = course("render", scene, "--size", "60x40", "-o", "a.png", folder="mine")
     assert rendered.returncode == 0, rendered.stderr
-    todo = course("check", "motion_blur", "--lines", folder="mine")
+    todo = course("check", "thin_lens", "--lines", folder="mine")
     assert todo.returncode == 3, todo.stderr
     tasks = json.loads((tmp_path / "mine" / ".vscode" / "tasks.json").read_text("utf-8"))
     matcher = tasks["tasks"][0]["problemMatcher"]["pattern"]["regexp"]
     found = [re.match(matcher, line) for line in todo.stdout.splitlines()]
-    assert [m[4].partition(":")[0] for m in found if m] == list(COURSE["motion_blur"])
+    assert [m[4].partition(":")[0] for m in found if m] == list(COURSE["thin_lens"])
     # With the right functions all is right, and pictures are among what is checked.
     files = site / "penumbra_course_files"
-    shutil.copy(files / "solutions" / "motion_blur.py", tmp_path / "mine" / "assignments")
-    done = course("check", "motion_blur", folder="mine")
+    shutil.copy(files / "solutions" / "thin_lens.py", tmp_path / "mine" / "assignments")
+    done = course("check", "thin_lens", folder="mine")
     assert done.returncode == 0, done.stdout + done.stderr
-    assert re.search(r"30 of 30 points, (\d+) of \1 checks passed", done.stdout)
+    assert re.search(r"40 of 40 points, (\d+) of \1 checks passed", done.stdout)
 
 
 def test_a_picture_shows_what_is_written_so_far(course: Course, site: Path, tmp_path: Path) -> None:
@@ -113,12 +113,12 @@ def test_a_picture_shows_what_is_written_so_far(course: Course, site: Path, tmp_
 def test_a_class_is_graded(course: Course, site: Path, tmp_path: Path) -> None:
     (tmp_path / "handed_in" / "ann").mkdir(parents=True)
     files = site / "penumbra_course_files"
-    shutil.copy(files / "solutions" / "motion_blur.py", tmp_path / "handed_in" / "ann")
+    shutil.copy(files / "solutions" / "thin_lens.py", tmp_path / "handed_in" / "ann")
     graded = course(
-        "grade", "handed_in", "--out", "graded", "--modules", "motion_blur", "--trust-submissions"
+        "grade", "handed_in", "--out", "graded", "--modules", "thin_lens", "--trust-submissions"
     )
     assert graded.returncode == 0, graded.stderr
-    assert "ann,1,30,30" in (tmp_path / "graded" / "grades.csv").read_text("utf-8")
+    assert "ann,1,40,40" in (tmp_path / "graded" / "grades.csv").read_text("utf-8")
 
 
 def test_where_nothing_is_yet_the_remedy_is_told(course: Course) -> None:
@@ -201,7 +201,5 @@ def test_another_python_installs_the_wheel_and_works(
     course, mine = binaries / "course", tmp_path / "mine"
     run(course, "start", "mine")
     run(course, "render", "scenes/soft_shadows.yaml", "--size", "60x40", folder=mine)
-    shutil.copy(
-        site / "penumbra_course_files" / "solutions" / "motion_blur.py", mine / "assignments"
-    )
-    assert "30 of 30 points" in run(course, "check", "motion_blur", folder=mine)
+    shutil.copy(site / "penumbra_course_files" / "solutions" / "thin_lens.py", mine / "assignments")
+    assert "40 of 40 points" in run(course, "check", "thin_lens", folder=mine)
