@@ -92,8 +92,9 @@ class _Bar:
             BarColumn(bar_width=None),
             TaskProgressColumn(),
             TimeElapsedColumn(),
-            TextColumn("left"),
+            TextColumn("gone,"),
             TimeRemainingColumn(compact=True),
+            TextColumn("left"),
             console=Console(stderr=True),
             refresh_per_second=8,
         )

@@ -1,15 +1,17 @@
 """A scene, ready to be rendered as often and in as many ways as one likes; and how it is to be rendered."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from course.base.errors import EffectError
 from course.engine.core import scene as core
 from course.engine.formats.pictures.display import SRGB, Display
 from course.engine.formats.yaml.description import DenoiseDescription, SubdivisionDescription
 from course.engine.formats.yaml.loading import Loaded, load_description
 from course.engine.formats.yaml.overriding import Overrides
 from course.engine.functions.effects import Effects
+from course.engine.functions.given import Given, GivenEffects
 from course.engine.scene.building.world import Compiled, compile_scene
 
 Subdivision = SubdivisionDescription
@@ -93,7 +95,7 @@ Described = Callable[[SceneSettings], None]
 
 def load_scene(
     path: str | Path,
-    effects: str | Path | Effects | None = None,
+    effects: str | Path | Effects | Given | None = None,
     described: Described = lambda _settings: None,
 ) -> Scene:
     """Read, check and compile a scene file.
@@ -101,8 +103,9 @@ def load_scene(
     Parameters
     ----------
     path : the YAML file
-    effects : whose functions to call: "solutions", "assignments", or a folder of modules; None means the solutions
-        where they are, and else the assignments
+    effects : whose functions to call: "mine", "solutions", "assignments", or a folder of modules; or functions
+        themselves by their names, as in ``{"point_on_sphere": point_on_sphere}``, with the others as by None. None
+        means "mine" in a folder made by `course start`, and the solutions elsewhere, where they are.
     described : called when the file has been read and checked, before meshes are read
 
     Raises
@@ -110,7 +113,7 @@ def load_scene(
     SceneError
         The file, or a mesh it names, can't be rendered; the message names file, line and key path.
     EffectError
-        The folder of functions or one of its modules is missing.
+        The folder of functions or one of its modules is missing, or the course has no function of a name.
     """
     return load_variant(path, None, effects, described)
 
@@ -118,14 +121,26 @@ def load_scene(
 def load_variant(
     path: str | Path,
     overrides: Overrides | None = None,
-    effects: str | Path | Effects | None = None,
+    effects: str | Path | Effects | Given | None = None,
     described: Described = lambda _settings: None,
 ) -> Scene:
     """`load_scene`, with other values at some key paths, such as ``{("lights", 0, "samples"): "ball"}``.
 
     Raises SceneError, EffectError as `load_scene` does, and for an override of something that isn't there.
     """
-    bound = effects if isinstance(effects, Effects) else Effects(effects)
+    bound = _effects(effects)
     loaded = load_description(Path(path), overrides)
     described(settings_of(loaded))
     return Scene(loaded, compile_scene(loaded, bound), bound)
+
+
+def _effects(given: str | Path | Effects | Given | None) -> Effects:
+    if isinstance(given, Effects):
+        return given
+    if isinstance(given, Mapping):
+        return GivenEffects(given)
+    if given is None or isinstance(given, str | Path):
+        return Effects(given)
+    raise EffectError(
+        f"effects is {type(given).__name__}; expected a folder, or functions by their names"
+    )
