@@ -248,7 +248,8 @@ class _Printer:
         results, self._pending = self._pending, []
         if not results:
             return
-        from course.school.grading.report import FunctionResults, unstarted
+        from course.school.grading.progress import line_of
+        from course.school.grading.report import FunctionResults, docs_page, unstarted
 
         function = results[0].function
         wrong = [result for result in results if result.status != "passed"]
@@ -263,6 +264,10 @@ class _Printer:
             click.echo(f"  {click.style('to do', fg='yellow')}    {function}")
             if unstarted(results[0]) and not results[0].module_wide:
                 click.echo(f"           {unstarted(results[0])}")
+            if not results[0].module_wide:
+                path = self._folder / f"{results[0].module}.py"
+                _line("write", f"{path}:{line_of(path, function)}")
+                _line("read", docs_page(results[0]))
             return
         click.echo(
             f"  {click.style('wrong', fg='red')}    {function}  ({len(wrong)} of {count(len(results), 'check')})"

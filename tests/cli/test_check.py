@@ -324,3 +324,13 @@ def test_a_failure_is_told_on_three_rungs_and_never_shows_the_code(
     solution = (PROJECT / "solutions" / "thin_lens.py").read_text(encoding="utf-8")
     written = solution.partition("### BEGIN SOLUTION")[2].partition("### END SOLUTION")[0]
     assert not any(line.strip() in said for line in written.splitlines() if len(line.strip()) > 20)
+
+
+def test_what_is_to_do_is_told_with_its_line_and_its_page(run: Run, folder: Path) -> None:
+    result = run("check", "thin_lens", "--folder", folder)
+    words = " ".join(result.stdout.split())
+    lines = (folder / "thin_lens.py").read_text(encoding="utf-8").splitlines()
+    for name in COURSE["thin_lens"]:
+        (line,) = (n for n, row in enumerate(lines, 1) if row.startswith(f"def {name}("))
+        place = f"{folder / 'thin_lens.py'}:{line}"
+        assert f"to do {name} write {place} read docs/modules/thin_lens.md#{name}" in words
