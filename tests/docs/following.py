@@ -45,7 +45,7 @@ TOOLS = {"ruff", "mypy", "sphinx", "http.server", "pip", "pytest", "uv"}
 
 TINY = ["--size", "48x32"]
 FEW = ["--modules", "adaptive_sampling"]
-REFERENCES = ("adaptive_sampling", "motion_blur")
+REFERENCES = ("adaptive_sampling", "thin_lens")
 """Modules whose references are made; tests/school/grading/release makes them all."""
 
 SHORTER: dict[str, list[str]] = {
@@ -242,8 +242,9 @@ class Page:
         if name in ("check", "calibrate"):
             # What stands for a module; in paths it is the name of a file that is there. And to calibrate another module
             # takes ten times as long.
+            quick = "thin_lens" if name == "calibrate" else "adaptive_sampling"
             other = {"NAME", *COURSE} if name == "calibrate" else {"NAME"}
-            words = ["adaptive_sampling" if word in other else word for word in words]
+            words = [quick if word in other else word for word in words]
         if "--address" in words:
             if not self._start_cluster():
                 return "not run (dask is not installed)"
