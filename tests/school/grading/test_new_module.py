@@ -47,11 +47,11 @@ def test_the_module_of_the_page_is_built_and_graded(tmp_path: Path) -> None:
     # By it the package knows that it is a checkout.
     shutil.copy(PROJECT / "pyproject.toml", tmp_path)
     blocks = shown()
-    names = blocks.pop("course/engine/functions/modules.py")
-    effects = tmp_path / "course" / "modules.py"
+    listed = "course/engine/functions/modules.py"
+    names, modules = blocks.pop(listed), tmp_path / listed
     further = "FURTHER = _named(\n    {\n"
-    assert further in effects.read_text()
-    effects.write_text(effects.read_text().replace(further, further + names))
+    assert further in modules.read_text()
+    modules.write_text(modules.read_text().replace(further, further + names))
     for path, code in blocks.items():
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(code)
