@@ -24,6 +24,7 @@ from sitebuild.diagrams.part import diagram
 from sitebuild.functions import functions
 from sitebuild.glossary import directives, indexed
 from sitebuild.heat_maps import INSTEAD, heat_map
+from sitebuild.homage import homage
 from sitebuild.live import live
 from sitebuild.mistakes.part import mistakes
 from sitebuild.notebook import notebook
@@ -58,6 +59,7 @@ PARTS: dict[str, Part] = {
     "diagram": diagram,
     "functions": functions,
     "heat_map": heat_map,
+    "homage": homage,
     "live": live,
     "mistakes": mistakes,
     "metu_shot": metu_shot,

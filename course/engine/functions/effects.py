@@ -239,16 +239,27 @@ class Effects:
         return self._modules[name]
 
 
-class NothingWritten(Effects):
+class Alone(Effects):
+    """A folder's functions, and stand-ins for those that are not written, though there be solutions."""
+
+    def __init__(self, folder: str | Path = "mine") -> None:
+        super().__init__(folder, filled=True)
+        self._rest, self._stands_in = None, True
+
+
+class NothingWritten(Alone):
     """Stand-ins for all functions, as in a copy without solutions in which nothing is written yet."""
 
-    def __init__(self) -> None:
-        super().__init__("mine")
-        self._rest, self._stands_in, self.trusted = None, True, True
+    def __init__(self, folder: str | Path = "mine") -> None:
+        super().__init__(folder)
+        self.trusted = True
 
     def written(self, module: str, name: str) -> bool:
         """See ``Effects``."""
         return False
+
+    def _tell_of_slip(self, module: str, name: str) -> None:
+        """No file is read, so none can have a slip."""
 
 
 def written_functions(file: Path) -> frozenset[str]:

@@ -21,7 +21,7 @@ from markupsafe import Markup
 from PIL import Image
 
 from course.base.errors import CourseError
-from course.engine.functions.effects import Effects
+from course.engine.functions.effects import Alone, Effects, NothingWritten
 from course.engine.render.adaptive.rounds import ADAPTABLE
 from course.engine.render.picture import Picture
 from course.engine.render.render import reads_loops_first, render
@@ -49,6 +49,9 @@ SAMPLES = 64
 TRIED = 4
 """Samples a pixel of a picture whose time tells that of one with more."""
 
+LAST = "gallery/1984.yaml"
+"""The scene of the last page: every function of the core modules brings one effect into it."""
+
 QUALITY = 82
 """Of the WebP pictures. With it two pictures and a plot take 30 to 100 kB, so twenty modules stay under 2 MB."""
 
@@ -68,6 +71,8 @@ class Shown:
     problem : why there is no picture; empty where there is one
     functions : how far each function is
     few : samples a pixel of before and after where the time was too short for ``SAMPLES``, else 0
+    words : what is said of both pictures
+    without : what is said of the one before
     """
 
     module: str
@@ -81,6 +86,8 @@ class Shown:
     problem: str
     functions: tuple[FunctionProgress, ...]
     few: tuple[int, int] = (0, 0)
+    words: str = ""
+    without: str = "Without it"
 
     @property
     def title(self) -> str:
@@ -164,16 +171,47 @@ def _shown(
 ) -> Iterator[Shown]:
     clock = _Clock()
     end = clock.now() + seconds
-    for number, functions in enumerate(begun):
-        module = functions[0].module
+    steps = [(functions[0].module, tuple(functions)) for functions in begun]
+    last = scenes / LAST
+    if begun and last.is_file():
+        steps.append((last.stem, ()))
+    for number, (module, functions) in enumerate(steps):
         before(module)
         # What a module leaves over is for those after it.
-        share = max(end - clock.now(), 1.0) / (len(begun) - number)
+        share = max(end - clock.now(), 1.0) / (len(steps) - number)
         try:
-            yield _rendered(module, tuple(functions), effects, scenes, share, clock)
+            if functions:
+                yield _rendered(module, functions, effects, scenes, share, clock)
+            else:
+                yield _homage(last, effects, share, clock)
         except (CourseError, NotImplementedError) as error:
             said = str(error) or type(error).__name__
-            yield Shown(module, (), "", "", (0, 0), "", None, (), said, tuple(functions))
+            yield Shown(module, (), "", "", (0, 0), "", None, (), said, functions)
+
+
+def _homage(path: Path, effects: Effects, seconds: float, clock: _Clock) -> Shown:
+    """The last picture: the effects in it are those of one's own functions alone."""
+    began = clock.now()
+    after, few = _picture(load_scene(path, Alone(effects.folder)), 0.6 * seconds, clock)
+    left = seconds - (clock.now() - began)
+    earlier, few_before = _picture(load_scene(path, NothingWritten(effects.folder)), left, clock)
+    own = tuple(after.receipt.effects.get("yours", ()))
+    height, width = after.film.samples.shape
+    return Shown(
+        path.stem,
+        own,
+        _webp(earlier),
+        _webp(after),
+        (width, height),
+        "",
+        None,
+        _costs(after),
+        "",
+        (),
+        (few_before, few),
+        "After the picture that began it all: each function that is written brings an effect into it.",
+        "Nothing is written",
+    )
 
 
 def _rendered(
@@ -197,27 +235,30 @@ def _rendered(
         left = seconds - (clock.now() - began)
         picture, few_before = _picture(load_scene(without, effects), left, clock)
         earlier = _webp(picture)
-    receipt = after.receipt
-    rays = sum(receipt.rays.values())
     height, width = after.film.samples.shape
     return Shown(
         module,
-        tuple(receipt.effects.get("yours", ())),
+        tuple(after.receipt.effects.get("yours", ())),
         earlier,
         _webp(after),
         (width, height),
         draw_curve(points) if len(points) > 1 else "",
         _slope(points),
-        (
-            ("samples a pixel", f"{receipt.samples:g}"),
-            ("rays", f"{rays:,}"),
-            ("in Embree, of all threads", f"{receipt.embree_seconds:.2f} s"),
-            ("by the clock", f"{receipt.wall_seconds:.2f} s"),
-            ("functions called", ", ".join(receipt.effects["called"])),
-        ),
+        _costs(after),
         "",
         functions,
         (few_before, few),
+    )
+
+
+def _costs(picture: Picture) -> tuple[tuple[str, str], ...]:
+    receipt = picture.receipt
+    return (
+        ("samples a pixel", f"{receipt.samples:g}"),
+        ("rays", f"{sum(receipt.rays.values()):,}"),
+        ("in Embree, of all threads", f"{receipt.embree_seconds:.2f} s"),
+        ("by the clock", f"{receipt.wall_seconds:.2f} s"),
+        ("functions called", ", ".join(receipt.effects["called"])),
     )
 
 
