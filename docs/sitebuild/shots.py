@@ -4,14 +4,22 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from PIL import Image
+
+from course.cli.tables import count
 from sitebuild import pictures
 from sitebuild.place import Place
 
 
 def picture(place: Place, name: str, words: str = "") -> str:
-    """Show a scene; ``words`` are for those who don't see it."""
-    shown, _ = image(place, pictures.shot(name), words)
-    return f'<p class="wide">{shown}</p>\n'
+    """Show a scene; ``words`` are for those who don't see it. A picture that lies beside it is shown as it is."""
+    planned = pictures.shot(name)
+    beside = planned.scene.with_suffix(".webp")
+    if not beside.is_file():
+        return f'<p class="wide">{image(place, planned, words)[0]}</p>\n'
+    with Image.open(beside) as kept:
+        shown = _tag(place.address(f"_pictures/{planned.file}", beside), words, kept.size)
+    return f'<p class="wide large">{shown}</p>\n'
 
 
 def before_after(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
@@ -35,10 +43,17 @@ def shot(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     shown, receipt = image(place, planned)
     text = pictures.receipt_text(planned, receipt) if receipt else "not rendered in this build"
     file = place.address(f"_scenes/{name.replace('/', '-')}.yaml", planned.scene)
-    return laid_out(planned.title, shown, planned.command, text, planned.scene, file)
+    cost = ""
+    if receipt:
+        threads, seconds = receipt["threads"], receipt["wall_seconds"]
+        each = f"{count(receipt['samples'], 'sample')} a pixel"
+        cost = f"{each}, {seconds:.0f} s on {count(threads, 'thread')}"
+    return laid_out(planned.title, shown, planned.command, text, planned.scene, file, cost)
 
 
-def laid_out(title: str, image: str, command: str, receipt: str, scene: Path, file: str) -> str:
+def laid_out(
+    title: str, image: str, command: str, receipt: str, scene: Path, file: str, cost: str = ""
+) -> str:
     """Lay out a scene with all that belongs to it.
 
     Parameters
@@ -46,11 +61,14 @@ def laid_out(title: str, image: str, command: str, receipt: str, scene: Path, fi
     image : HTML
     receipt : what the command prints
     file : address of the scene on the site
+    cost : what stands below the picture
     """
     kind = scene.suffix.removeprefix(".")
     return f"""## {title}
 
 <p class="wide">{image}</p>
+
+{cost}
 
     {command}
 
@@ -83,8 +101,11 @@ def image(
     else:
         file, receipt = pictures.picture(planned)
     address = place.address(f"_pictures/{planned.file}", file)
-    width, height = planned.size
+    return _tag(address, alternative or planned.title, planned.size), receipt
+
+
+def _tag(address: str, alternative: str, size: tuple[int, int]) -> str:
     return (
-        f'<img src="{address}" alt="{escape(alternative or planned.title)}"'
-        f' width="{width}" height="{height}" loading="lazy">'
-    ), receipt
+        f'<img src="{address}" alt="{escape(alternative)}"'
+        f' width="{size[0]}" height="{size[1]}" loading="lazy">'
+    )

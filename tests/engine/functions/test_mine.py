@@ -16,7 +16,13 @@ from course.base.errors import CourseWarning
 from course.cli.main import commands
 from course.cli.tables import receipt_sections
 from course.engine.core.types import Floats32
-from course.engine.functions.effects import PROJECT, Effects, written_functions
+from course.engine.functions.effects import (
+    PROJECT,
+    Alone,
+    Effects,
+    NothingWritten,
+    written_functions,
+)
 from course.engine.functions.modules import COURSE
 from course.engine.functions.signatures import CONTRACTS
 from course.engine.functions.stand_ins import STAND_INS
@@ -71,6 +77,23 @@ def test_without_a_written_function_it_is_the_solutions_picture(
     found, wanted = (render(each, **SMALL) for each in (scene, load_scene(SCENE, "solutions")))
     assert np.array_equal(found.linear, wanted.linear)
     assert found.receipt.to_dict()["effects"]["yours"] == []
+
+
+def test_alone_a_folder_has_stand_ins_though_there_be_solutions(mine: Path) -> None:
+    effects = Alone(mine)
+    way = np.array([[0.0], [0.6], [0.8]], np.float32)
+    assert np.array_equal(
+        effects.function("glossy", "sample_phong_lobe")(way, 9.0, np.zeros((2, 1), np.float32)), way
+    )
+    assert effects.function("glossy", "keep_above") is STAND_INS["glossy.keep_above"][0]
+    told = render(load_scene(SCENE, effects), **SMALL).receipt.to_dict()["effects"]
+    assert told["yours"] == ["glossy.sample_phong_lobe"]
+
+
+def test_where_nothing_is_written_all_functions_are_stand_ins(mine: Path) -> None:
+    effects = NothingWritten(mine)
+    for function, (stand_in, _) in STAND_INS.items():
+        assert effects.function(*function.split(".")) is stand_in
 
 
 @pytest.mark.usefixtures("mine")

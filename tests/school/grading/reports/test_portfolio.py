@@ -17,6 +17,7 @@ from PIL import Image
 
 from course.base.errors import FunctionError
 from course.cli.main import commands
+from course.engine.formats.pictures.display import linear_to_srgb8
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.render.picture import Picture
 from course.engine.render.render import render
@@ -104,6 +105,36 @@ def test_the_warm_up_comes_first(monkeypatch: pytest.MonkeyPatch, folder: Path) 
     found = [FOUND[0], [progress("sampling", "disk_by_polar", "right")]]
     page = portfolio(found, Effects(folder, filled=True), folder, seconds=4).text
     assert page.index('id="sampling"') < page.index('id="soft_shadows"')
+
+
+def test_the_last_picture_is_by_ones_own_functions_alone_and_before_it_by_none(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    (folder / "gallery").mkdir()
+    (folder / "gallery" / "1984.yaml").write_text(SCENE + SPHERE)
+    monkeypatch.setattr(
+        made, "_rendered", lambda module, *_: replace(shown("data:,"), module=module)
+    )
+    page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=8).text
+    headings = re.findall('<h2 id="(.+?)">', page)
+    assert headings[-1] == "1984"
+    last = page.partition('<h2 id="1984">')[2]
+    before, after = re.findall(r'src="data:image/webp;base64,([^"]+)"', last)
+    assert "With <code>soft_shadows.point_on_sphere</code>" in last
+    assert "Nothing is written" in last
+    # The lamp is a point as long as its function isn't written: no pixel lies in a penumbra.
+    pictures = [np.asarray(Image.open(BytesIO(b64decode(each))), float) for each in (before, after)]
+    assert abs(pictures[0] - pictures[1]).max() > 20
+    point = render(load_scene(folder / "before" / "soft_shadows.yaml"), spp=64).linear
+    hard = Image.fromarray(linear_to_srgb8(np.moveaxis(point, -1, 0)))
+    assert abs(np.asarray(hard, float) - pictures[0]).mean() < 4
+
+
+def test_nobody_who_has_begun_nothing_has_a_last_picture(folder: Path) -> None:
+    (folder / "gallery").mkdir()
+    (folder / "gallery" / "1984.yaml").write_text(SCENE + SPHERE)
+    page = portfolio(FOUND[1:], Effects(folder, filled=True), folder, seconds=1).text
+    assert "1984" not in page
 
 
 def test_addresses_of_large_pictures_are_printed_whole() -> None:
