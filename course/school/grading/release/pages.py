@@ -7,6 +7,7 @@ KINDS = {
     "convergence": "a plot of error against samples",
     "diagram": "a diagram",
     "heat_map": "a heat map",
+    "homage": "a picture without and with it, under a slider",
     "live": "a view with sliders",
     "mistakes": "pictures of these mistakes",
     "pattern_explorer": "a pattern to try",
