@@ -55,7 +55,7 @@ def untroubled(browser: Any, alone: bool = False, **options: Any) -> Iterator[An
         page.context.close()
     else:
         _LEFT[place] = page, trouble
-    assert trouble == []
+    assert trouble == [], "\n".join(trouble)
 
 
 def _renew(page: Any, options: dict[str, Any]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.browser import tab_to
+from tests.browser import tab_to, untroubled
 
 
 def test_no_line_begins_with_the_punctuation_of_a_formula(browser: Any, site: Path) -> None:
@@ -84,3 +84,31 @@ def test_words_that_a_search_has_found_are_marked(browser: Any, site: Path, page
     page.wait_for_timeout(100)
     assert not failed
     page.close()
+
+
+def test_a_page_that_is_taken_again_is_as_good_as_new(browser: Any, tmp_path: Path) -> None:
+    (tmp_path / "page.html").write_text("<!doctype html><title>A</title><p>Words</p>")
+    options = {"viewport": {"width": 613, "height": 401}}
+    state = """() => [innerWidth, matchMedia("(prefers-color-scheme: dark)").matches,
+      matchMedia("print").matches, localStorage.length, sessionStorage.length, window.mine ?? null]"""
+    pages = []
+    for _ in range(2):
+        with untroubled(browser, **options) as page:
+            page.goto((tmp_path / "page.html").as_uri())
+            assert page.evaluate(state) == [613, False, False, 0, 0, None]
+            page.evaluate("localStorage.a = sessionStorage.b = window.mine = 1")
+            page.set_viewport_size({"width": 300, "height": 200})
+            page.emulate_media(color_scheme="dark", media="print")
+            pages.append(page)
+    assert pages[0] is pages[1]
+    with untroubled(browser, alone=True, **options) as page:
+        assert page is not pages[0]
+
+
+def test_what_goes_wrong_in_a_page_is_told_once_and_the_page_goes(browser: Any) -> None:
+    options = {"viewport": {"width": 614, "height": 401}}
+    with pytest.raises(AssertionError, match="wrong"), untroubled(browser, **options) as page:
+        page.set_content("<script>throw new Error('wrong')</script>")
+    with untroubled(browser, **options) as other:
+        assert other is not page
+        other.set_content("<p>Words")
