@@ -1,6 +1,8 @@
 """Plots of what the benchmarks measured: numbers in their places, readable in both schemes, by pointer and by keys."""
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from html import unescape
 from math import log
 from pathlib import Path
@@ -21,6 +23,7 @@ from course.benchmarking.tables import digits
 from course.cli.bench import EXACT
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
+from tests.browser import untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
@@ -438,15 +441,21 @@ def test_the_documents_show_every_module(site: Path, name: str) -> None:
     assert _text(site, name).count('<figure class="convergence">') == count
 
 
-def _open(browser: Any, site: Path, **options: Any) -> Any:
-    context = browser.new_context(viewport={"width": 390, "height": 800}, offline=True, **options)
-    page = context.new_page()
-    page.goto((site / "modules" / "soft_shadows.html").as_uri())
-    return page
+@contextmanager
+def _open(browser: Any, site: Path, **options: Any) -> Iterator[Any]:
+    with untroubled(browser, viewport={"width": 390, "height": 800}, **options) as page:
+        page.goto((site / "modules" / "soft_shadows.html").as_uri())
+        yield page
 
 
-def test_the_pointer_finds_the_nearest_mark(browser: Any, site: Path) -> None:
-    page = _open(browser, site)
+@pytest.fixture
+def page(browser: Any, site: Path) -> Iterator[Any]:
+    """The page of a module, on a telephone."""
+    with _open(browser, site) as opened:
+        yield opened
+
+
+def test_the_pointer_finds_the_nearest_mark(page: Any) -> None:
     plot = page.locator(".convergence .plot").first
     mark = plot.locator(".curve").nth(1).locator("[data-values]").nth(2)
     plot.scroll_into_view_if_needed()
@@ -465,8 +474,7 @@ def test_the_pointer_finds_the_nearest_mark(browser: Any, site: Path) -> None:
     assert plot.locator(".ring").count() == 0
 
 
-def test_the_arrow_keys_go_from_mark_to_mark(browser: Any, site: Path) -> None:
-    page = _open(browser, site)
+def test_the_arrow_keys_go_from_mark_to_mark(page: Any) -> None:
     plot = page.locator(".convergence .plot").first
     page.evaluate("document.body.focus()")
     # As who tabs into it: focus that is shown.
@@ -499,18 +507,17 @@ def test_the_arrow_keys_go_from_mark_to_mark(browser: Any, site: Path) -> None:
 
 
 def test_without_scripts_the_numbers_are_in_a_table(browser: Any, site: Path) -> None:
-    page = _open(browser, site, java_script_enabled=False)
-    figure = page.locator(".convergence").first
-    assert figure.locator("table").is_hidden()
-    figure.locator("summary").click()
-    assert figure.locator("table").is_visible()
-    assert figure.locator(".hint").count() == 0
-    assert figure.locator(".plot").first.get_attribute("tabindex") is None
+    with _open(browser, site, java_script_enabled=False) as page:
+        figure = page.locator(".convergence").first
+        assert figure.locator("table").is_hidden()
+        figure.locator("summary").click()
+        assert figure.locator("table").is_visible()
+        assert figure.locator(".hint").count() == 0
+        assert figure.locator(".plot").first.get_attribute("tabindex") is None
 
 
 @pytest.mark.parametrize("width", [390, 1280])
-def test_letters_are_large_enough_and_nothing_is_cut(browser: Any, site: Path, width: int) -> None:
-    page = _open(browser, site)
+def test_letters_are_large_enough_and_nothing_is_cut(page: Any, width: int) -> None:
     page.set_viewport_size({"width": width, "height": 800})
     sizes = page.evaluate(
         """() => [...document.querySelectorAll(".convergence svg:not(.swatch) text")].map((text) =>
