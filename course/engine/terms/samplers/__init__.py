@@ -15,7 +15,7 @@ from course.engine.core.samplers import (
     Sampler,
 )
 from course.engine.core.types import Functions
-from course.engine.terms.samplers.low_discrepancy import (
+from course.engine.terms.samplers.halton import (
     ChainedSampler,
     HaltonSampler,
     HammersleySampler,

@@ -169,7 +169,7 @@ def test_moved_points_stay_below_1(monkeypatch: pytest.MonkeyPatch, word: int) -
     def highest(i: NDArray[Any], dims: int) -> NDArray[np.float32]:
         return np.full((dims, len(i)), 1 - 2**-24, np.float32)
 
-    monkeypatch.setattr("course.engine.terms.samplers.low_discrepancy.hash_words", same)
+    monkeypatch.setattr("course.engine.terms.samplers.halton.hash_words", same)
     u = make_sampler("halton", 0, highest).draw(block(4), 0, 2)
     assert u.min() >= 0
     assert u.max() < 1
