@@ -14,6 +14,7 @@ class Counters:
     Attributes
     ----------
     rays : kind -> rays cast
+    spared : reason -> shadow rays that weren't sent
     numbers : name of a dimension -> random numbers drawn
     seconds : stage -> seconds
     embree : seconds inside Embree, or the tests of a student's BVH
@@ -22,6 +23,7 @@ class Counters:
     rays: Counter[str] = field(
         default_factory=lambda: Counter(camera=0, shadow=0, reflection=0, refraction=0)
     )
+    spared: Counter[str] = field(default_factory=Counter)
     numbers: Counter[str] = field(default_factory=Counter)
     seconds: dict[str, float] = field(default_factory=dict)
     embree: QueryStats = field(default_factory=QueryStats)
@@ -40,6 +42,7 @@ class Counters:
     def add(self, other: "Counters") -> None:
         """Add another thread's counters."""
         self.rays.update(other.rays)
+        self.spared.update(other.spared)
         self.numbers.update(other.numbers)
         for stage, seconds in other.seconds.items():
             self.seconds[stage] = self.seconds.get(stage, 0.0) + seconds

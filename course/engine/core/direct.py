@@ -84,6 +84,13 @@ Weigh = Callable[[Hits, Candidates], Candidates | None]
 """Weighs the light of candidates, and leaves out those that need no shadow ray."""
 
 
+Visible = Callable[[Light, Hits, Candidates, Draws], Mask]
+"""``DirectLight.visible``."""
+
+Spare = Callable[[Visible, Light, Hits, Candidates, Draws], Mask]
+"""Asks for the visibility of those candidates only for which it isn't known; what it spares, it counts."""
+
+
 @dataclass(frozen=True)
 class DirectLight:
     """Direct light reflected at hits.
@@ -94,6 +101,7 @@ class DirectLight:
     sky : function that returns the environment's irradiance / pi, (3, n) or None for 0; None if it isn't sampled
     choice : None if all hits ask all lights
     weigh : None if light counts in full
+    spare : None if all candidates cast shadow rays
     """
 
     surface: Surface
@@ -104,6 +112,7 @@ class DirectLight:
     sky: Callable[[Hits, Indices | None, int, Draws], Floats32 | None] | None = None
     choice: LightChoice | None = None
     weigh: Weigh | None = None
+    spare: Spare | None = None
 
     def __call__(
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
@@ -148,7 +157,8 @@ class DirectLight:
         if candidates is None:
             return sums
         # ---- one shadow ray
-        free = self._visible(light, hits, candidates, draws)
+        rays = light, hits, candidates, draws
+        free = self.visible(*rays) if self.spare is None else self.spare(self.visible, *rays)
         np.multiply(candidates.irradiance, free, out=candidates.irradiance)
         draws.cast("shadow", len(candidates.index), path, candidates.index)
         if watcher is not None:
@@ -189,7 +199,7 @@ class DirectLight:
         some = [a if a.shape[-1] == 1 else a.take(index, axis=-1) for a in arrays]
         return Candidates(index, index, None, *some)
 
-    def _visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
+    def visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
         """Visibility of the light, (k,); undefined for hits that aren't candidates.
 
         A facet of a smooth mesh may face away from a light that its shading normal faces. Its shadow ray starts at the

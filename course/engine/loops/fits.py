@@ -41,6 +41,7 @@ from course.engine.terms.scattering.absorption import Absorption
 from course.engine.terms.scattering.scatter import FullScatter
 from course.engine.terms.surfaces.surface import FullSurface
 from course.engine.terms.surfaces.swept_movers import SweptMovers
+from course.engine.terms.shafts.stage import Shafts
 
 DEEPEST = 64
 """Most bounces: the loop keeps room for the rays of each depth."""
@@ -127,7 +128,8 @@ KNOWN: dict[type, Known] = {
         "faces cube_map seamless",
         also=lambda e: _owned(e.cube_map, "lookup_seamless" if e.seamless else "lookup"),
     ),
-    DirectLight: Known("lights motion sky reflection", "surface shaded", "choice weigh"),
+    DirectLight: Known("lights motion sky reflection spare", "surface shaded", "choice weigh"),
+    Shafts: Known("", "surface camera lights pixels places lock"),
     BlinnPhong: Known("", "diffuse specular exponent"),
     Sky: Known("environment sampling", "surface diffuses refracts"),
     ProductSampling: Known("", "rows columns texel_rows texel_columns"),

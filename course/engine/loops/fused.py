@@ -34,6 +34,7 @@ from course.engine.loops import (
     number_kernels,
     numpy_kernels,
     path_kernels,
+    shaft_kernels,
 )
 from course.engine.loops.fits import makes_camera_rays
 from course.engine.loops.packets import WIDTH, aligned
@@ -46,12 +47,20 @@ from course.engine.terms.paths.path_tracing import Glow, PathIntegrator
 from course.engine.terms.plan import BOUNCE, CHOICE, same_fields
 from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.absorption import Absorption
+from course.engine.terms.shafts.stage import MOST_LIGHTS, REASONS, Tables
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
 _NO_NUMBERS = np.empty((0, 0), np.float32)
 _NO_FACES = np.empty((6, 0, 0, 3), np.float32)
 _NOWHERE, _NO_BOXES = np.zeros(3, np.float32), np.empty((0, 3), np.float32)
+_NO_NUMBERS_OF, _NO_PLACES = np.empty((0, 2), np.int32), np.empty(0, np.int64)
+_NO_SHAFTS = shaft_kernels.Shafts(
+    *(_NO_NUMBERS_OF, *(np.empty((0, wide)) for wide in (3, 3, 4, 2)), _NO_PLACES, _NO_PLACES),
+    *(_NOWHERE, _NOWHERE, _NOWHERE, _NO_ROWS, _NO_BOXES, _NONE, np.empty(0, np.int32)),
+    *(np.empty((0, 6), np.float32), _NO_NUMBERS_OF, _NO_PLACES, _NO_PLACES),
+    *(np.empty((0, 15)), np.empty((0, 0), np.uint64), np.uint64(0), False),
+)
 
 SMALLEST = 16384
 """Camera rays in a tile, at least: beside so many, its memory and its place in the film take little time."""
@@ -253,6 +262,25 @@ def _scene(integrator: Integrator, tables: SceneTables) -> fused_kernels.Scene:
     )
 
 
+def _shafts(integrator: Integrator) -> shaft_kernels.Shafts:
+    """What is known of shafts; without a row for any light where there are none."""
+    direct = integrator.direct
+    shafts: Any = None if direct is None else direct.spare
+    tables: Tables | None = None if shafts is None else shafts.made
+    if direct is None or tables is None:
+        return _NO_SHAFTS
+    lamps = [
+        np.array((*lamp.middle, *lamp.half.ravel(), lamp.radius, lamp.limit, lamp.far), np.float64)
+        for lamp in tables.lamps
+    ]
+    slots = [tables.slots.get(light.name, -1) for light in direct.lights]
+    moves = integrator.motion is not None
+    return shaft_kernels.Shafts(
+        *(*tables.cells, *tables.boxes, np.array(slots, np.int64)),
+        *(np.array(lamps), tables.known, np.uint64(65 - tables.known.shape[1].bit_length()), moves),
+    )
+
+
 def _paths(integrator: Integrator, dimensions: Dimensions) -> path_kernels.Paths | None:
     """How paths go on; None for rays that follow every way."""
     if not isinstance(integrator, PathIntegrator):
@@ -346,6 +374,7 @@ class FusedTracer(Tracer):
         return (
             _eye(integrator, dimensions),
             _scene(integrator, tables),
+            _shafts(integrator),
             _reflectances(integrator),
             _lights(lights, dimensions),
             _sky(integrator.direct, dimensions),
@@ -363,6 +392,7 @@ class FusedTracer(Tracer):
     def _scratch(self) -> fused_kernels.Scratch:
         """Memory for the loop."""
         integrator, rows, width = self.integrator, lanes.ALL_ROWS, WIDTH
+        lights = MOST_LIGHTS if integrator.direct and integrator.direct.spare else 0
         memory = aligned(rows + lanes.ALL_INTEGERS)
         arguments = np.zeros(16, np.uint32)
         # Of Embree's features all.
@@ -384,6 +414,9 @@ class FusedTracer(Tracer):
             np.empty((more, bounce_kernels.RAY), np.float32),
             np.empty((brought, 5), np.float32),
             np.empty((2 * depth + 4, 4), np.int64),
+            np.full((lights, 3), -1, np.int64),
+            np.empty(shaft_kernels.WALK),
+            np.empty(shaft_kernels.PILE, np.int64),
             np.empty(3, np.float32),
             np.empty(4, np.float32),
             np.empty((4, 3), np.int64),
@@ -492,6 +525,10 @@ class FusedTracer(Tracer):
                 "refraction": int(counts[lanes.REFRACTIONS]),
             }
         )
+        known = int(counts[lanes.CLEAR]), int(counts[lanes.CUT_OFF])
+        if any(known):
+            counters.spared.update(dict(zip(REASONS, known, strict=True)))
+            counters.rays["shadow"] -= sum(known)
         if counts[lanes.PATHS]:
             counters.rays["path"] += int(counts[lanes.PATHS])
         drawn = {"pixel": 2 * block.size, "gloss": int(counts[lanes.GLOSSY])}

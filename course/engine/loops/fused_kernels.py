@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from course.engine.core.accelerator import NO_HIT
 from course.engine.core.ray_offset import OFFSET as LEAST_OFFSET
-from course.engine.core.types import Floats32, Indices, Mask, Materials
+from course.engine.core.types import Floats32, Floats64, Indices, Mask, Materials
 from course.engine.loops import numpy_kernels
 from course.engine.loops.bounce_kernels import RAY, scatter
 from course.engine.loops.clock_kernels import nanoseconds
@@ -72,6 +72,7 @@ from course.engine.loops.packet_kernels import (
 from course.engine.loops.packets import COHERENT
 from course.engine.loops.path_kernels import bounce
 from course.engine.loops.point_kernels import pull, to_viewer
+from course.engine.loops.shaft_kernels import Shafts, find_cells
 
 CHUNK = 1024
 """Paths that are followed together: so many that packets stay full after a bounce, so few that their rays stay in the
@@ -197,6 +198,8 @@ class Scratch(NamedTuple):
     brought : (k, 5), what each ray of that list has brought, its path, and NOTHING, MISSED or MET; (0, 5) if no path
         has two rays
     pile : (k, 4) int64, depth, beginning and length of each list in the stack, and how many of its rays aren't lit
+    told : (rows, 3) int64, of each light with shafts the halves of the last cell's key, and what its shaft is
+    walk, boxes : memory for a shaft
     color, weights, texels : (3,), (4,) float32 and (4, 3) int64, of a cube map's lookup
     """
 
@@ -208,6 +211,9 @@ class Scratch(NamedTuple):
     refracted: Floats32
     brought: Floats32
     pile: Indices
+    told: Indices
+    walk: Floats64
+    boxes: Indices
     color: Floats32
     weights: Floats32
     texels: Indices
@@ -505,6 +511,7 @@ def _miss(surroundings, count, s, whole, scratch):
 @njit(**LEAN)
 def _shade(
     scene,
+    shafts,
     materials,
     lights,
     sky,
@@ -521,21 +528,21 @@ def _shade(
     s, whole, counts = scratch.s, scratch.whole, film.counts
     for i in range(3 * WIDTH):
         s[DIFFUSE + i] = s[SPECULAR + i] = _NOTHING
+    if len(shafts.slot):
+        find_cells(shafts, s, whole)
     for k in range(len(lights.kind)):
         pair = lights.pair[k] + depth * stride
         shadows = illuminate(
             lights,
             k,
             scene,
+            shafts,
             materials,
             numbers,
             pair,
             same,
             timed,
-            scratch.call,
-            scratch.arguments,
-            s,
-            whole,
+            scratch,
             counts,
         )
         counts[SHADOW_RAYS] += shadows
@@ -607,6 +614,7 @@ def follow(
     numbers,
     eye,
     scene,
+    shafts,
     materials,
     lights,
     sky,
@@ -692,6 +700,7 @@ def follow(
                 pairs = depths.pairs
                 _shade(
                     scene,
+                    shafts,
                     materials,
                     lights,
                     sky,

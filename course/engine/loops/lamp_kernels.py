@@ -18,7 +18,9 @@ from course.engine.loops.clock_kernels import nanoseconds
 from course.engine.loops.lanes import (
     ABOVE,
     ASKED,
+    CLEAR,
     COSINE,
+    CUT_OFF,
     DIFFUSE,
     FACTOR,
     HIT,
@@ -34,6 +36,7 @@ from course.engine.loops.lanes import (
     POINT,
     RAISED,
     SECOND_RAYS,
+    SENT,
     SHADOW,
     SHADOW_TFAR,
     SHADOW_TO,
@@ -56,6 +59,7 @@ from course.engine.loops.options import LEAN, njit
 from course.engine.loops.packet_kernels import TFAR, TO, WIDTH
 from course.engine.loops.packet_kernels import U as HIT_U
 from course.engine.loops.packet_kernels import V as HIT_V
+from course.engine.loops.shaft_kernels import spare
 
 AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE, TRIANGLES = range(8)
 """Kinds of lights."""
@@ -237,7 +241,7 @@ def _bulge(bulge, k, u, v):
 def _raise(bulge, most, limit, s, whole):
     """Raise the origins of shadow rays from facets that face away from the light; how many.
 
-    See ``DirectLight._visible``.
+    See ``DirectLight.visible``.
     """
     raised = 0
     for i in range(WIDTH):
@@ -317,12 +321,13 @@ def _highlight(exponent, specular, color, call, s, whole):
 
 @njit(**LEAN)
 def illuminate(
-    lights, k, scene, materials, numbers, pair, same, timed, call, arguments, s, whole, counts
+    lights, k, scene, shafts, materials, numbers, pair, same, timed, scratch, counts
 ):
     """Add what hits reflect of light k, but for the reflectances, to ``DIFFUSE`` and ``SPECULAR``; how many may be lit.
 
     ``ASKED`` are the hits that cast a shadow ray. Nanoseconds and second rays above facets are added to ``counts``.
     """
+    call, arguments, s, whole = scratch.call, scratch.arguments, scratch.s, scratch.whole
     if lights.width[k]:
         draw(numbers, pair, 2, same, s, whole, U)
         if lights.width[k] > 2:
@@ -368,14 +373,21 @@ def illuminate(
         counts[SECOND_RAYS] += raised
     for i in range(WIDTH):
         s[SHADOW_TFAR + i] = limit
+    sends, mask = True, whole[ASKED : ASKED + WIDTH]
+    if len(shafts.slot) and shafts.slot[k] >= 0:
+        clear, cut = spare(shafts, k, s, whole, scratch)
+        counts[CLEAR] += clear
+        counts[CUT_OFF] += cut
+        sends, mask = clear + cut < candidates, whole[SENT : SENT + WIDTH]
     start = nanoseconds(call) if timed else 0
     time, others = s[TIME : TIME + WIDTH], whole[OTHERS : OTHERS + WIDTH]
     scenes, velocity, boxes = scene.blockers, scene.velocity, scene.boxes
     if raised:
-        above, mask = s[ABOVE : ABOVE + PACKET], whole[RAISED : RAISED + WIDTH]
-        occlude(scenes, velocity, boxes, time, 0, WIDTH, above, mask, others, arguments)
-    packet, mask = s[SHADOW : SHADOW + PACKET], whole[ASKED : ASKED + WIDTH]
-    occlude(scenes, velocity, boxes, time, 0, WIDTH, packet, mask, others, arguments)
+        above, high = s[ABOVE : ABOVE + PACKET], whole[RAISED : RAISED + WIDTH]
+        occlude(scenes, velocity, boxes, time, 0, WIDTH, above, high, others, arguments)
+    if sends:
+        packet = s[SHADOW : SHADOW + PACKET]
+        occlude(scenes, velocity, boxes, time, 0, WIDTH, packet, mask, others, arguments)
     if timed:
         counts[NANOSECONDS] += nanoseconds(call) - start
     # Embree sets tfar to minus infinity where something is in the way.

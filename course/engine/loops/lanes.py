@@ -31,7 +31,7 @@ STRENGTH = _FIRST + 78 * WIDTH
 """What each group of a light of triangles sends to a point."""
 ALL_ROWS = 3 * ROWS + 54 + 24 + -(-GROUPS // WIDTH)
 
-_integers = (number * WIDTH for number in range(14))
+_integers = (number * WIDTH for number in range(18))
 (
     HIT,
     ASKED,
@@ -47,16 +47,21 @@ _integers = (number * WIDTH for number in range(14))
     KEPT,
     LIT,
     WAY,
+    SENT,
+    KNOWN,
+    CUBE,
+    OWNER,
 ) = _integers
 """Rows of integers: masks (-1 or 0), what is hit, and of each path its number, pixel, sample, medium, object left;
-whether light from lamps and the environment counts; and the way that a path takes."""
-ALL_INTEGERS = 14
+whether light from lamps and the environment counts; the way that a path takes; masks of shadow rays that are
+sent, and that a shaft may tell of; and the two halves of a cell's key."""
+ALL_INTEGERS = 18
 
 SHADOW_TO, SHADOW_TFAR = SHADOW + TO, SHADOW + TFAR
 
-_counts = range(11)
+_counts = range(13)
 NANOSECONDS, SHADOW_RAYS, SECOND_RAYS, REFLECTIONS, REFRACTIONS, HITS, GLOSSY, SKY, *_more = _counts
-PATHS, BOUNCES, CHOICES = _more
+PATHS, BOUNCES, CHOICES, CLEAR, CUT_OFF = _more
 """What is counted: time inside Embree of packets that are timed, rays, hits, numbers of gloss, hits under the sky; rays
-of paths, those that leave diffuse surfaces, and numbers by which ways are chosen."""
+of paths, those that leave diffuse surfaces, and numbers by which ways are chosen; shadow rays that shafts spare."""
 COUNTS = len(_counts)

@@ -16,7 +16,7 @@ from course.engine.core.accelerator import Accelerator, StaticAccelerator
 from course.engine.core.lights.sample import TO_A_SURFACE, Light
 from course.engine.core.lights.sphere import SphereLight
 from course.engine.core.motion import MovingAccelerator
-from course.engine.core.types import Mask
+from course.engine.core.types import Indices, Mask
 from course.engine.functions.own import courses_own
 from course.engine.terms.lights.visible_sphere import VisibleSphereLight
 from course.engine.terms.surfaces.surface import FullSurface
@@ -28,11 +28,12 @@ MOST = 200_000
 class LampAccelerator(StaticAccelerator):
     """Triangles of which some are the mesh of the only lamp.
 
-    ``others``: the triangles that may block the lamp's light
+    ``others``: the triangles that may block the lamp's light; ``kept``: their numbers among all
     """
 
     def __init__(self, whole: StaticAccelerator, of_lamp: Mask) -> None:
         super().__init__(whole.vertices, whole.triangles, whole.make)
+        self.kept: Indices = np.flatnonzero(~of_lamp)
         self.others = StaticAccelerator(whole.vertices, whole.triangles[~of_lamp], whole.make)
 
     def unoccluded(self, *rays: Any, **options: Any) -> Mask:
