@@ -34,7 +34,7 @@ FLOORS = {
         {"cameras", "samplers", "surfaces", "denoising", "work"},
         {"scattering"},
         {"environments", "lights"},
-        {"paths", "world"},
+        {"paths", "shafts", "world"},
         {"plan"},
     ],
     "course.school": [{"grading"}, {"quizzes", "studio"}],

@@ -73,6 +73,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     yours, standing = effects.get("yours", ()), effects.get("stand-ins", {})
     sections = [
         ("rays", [*_counts(rays), *_total(rays, wall)]),
+        ("not sent", _spared(receipt)),
         ("samples", _samples(receipt)),
         ("subdivision", _corners(receipt)),
         ("denoising", _denoising(receipt)),
@@ -128,6 +129,26 @@ def _denoising(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
         ("noise", f"{found['noise']:.3g} before, {found['left']:.3g} after, by its own estimate"),
         ("bias", f"{found['bias']:.3g}, by its own estimate"),
     ]
+
+
+def _spared(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Shadow rays whose answers were known, and why."""
+    found = receipt.get("spared", {})
+    sent = receipt["rays"]["shadow"]
+    total = max(sent + found.get("clear", 0) + found.get("cut off", 0), 1)
+    why = {
+        "clear": "of the shadow rays: nothing between their cell and the whole light",
+        "cut off": "of the shadow rays: one triangle between their cell and all of the light",
+    }
+    rows = [
+        (name, f"{_share(found[name], total)} {said}")
+        for name, said in why.items()
+        if found.get(name)
+    ]
+    probes = found.get("probes")
+    return rows + (
+        [("probes", f"{probes:,} rays to see which cells are worth a look")] if probes else []
+    )
 
 
 def _tests(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:

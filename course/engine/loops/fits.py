@@ -39,9 +39,9 @@ from course.engine.terms.samplers import FUNCTIONS
 from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.absorption import Absorption
 from course.engine.terms.scattering.scatter import FullScatter
+from course.engine.terms.shafts.stage import Shafts
 from course.engine.terms.surfaces.surface import FullSurface
 from course.engine.terms.surfaces.swept_movers import SweptMovers
-from course.engine.terms.shafts.stage import Shafts
 
 DEEPEST = 64
 """Most bounces: the loop keeps room for the rays of each depth."""

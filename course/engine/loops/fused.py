@@ -47,6 +47,7 @@ from course.engine.terms.paths.path_tracing import Glow, PathIntegrator
 from course.engine.terms.plan import BOUNCE, CHOICE, same_fields
 from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.absorption import Absorption
+from course.engine.terms.shafts.cells import Cells
 from course.engine.terms.shafts.stage import MOST_LIGHTS, REASONS, Tables
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
@@ -54,11 +55,14 @@ _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
 _NO_NUMBERS = np.empty((0, 0), np.float32)
 _NO_FACES = np.empty((6, 0, 0, 3), np.float32)
 _NOWHERE, _NO_BOXES = np.zeros(3, np.float32), np.empty((0, 3), np.float32)
-_NO_NUMBERS_OF, _NO_PLACES = np.empty((0, 2), np.int32), np.empty(0, np.int64)
+_NO_OWNERS, _NO_PLACES = np.empty((0, 2), np.int32), np.empty(0, np.int64)
+_NO_CELLS = Cells(
+    *(_NO_OWNERS, np.empty((0, 3)), np.empty((0, 3)), np.empty((0, 4)), np.empty((0, 2))),
+    *(_NO_PLACES, _NO_PLACES, _NOWHERE, _NOWHERE, _NOWHERE),
+)
 _NO_SHAFTS = shaft_kernels.Shafts(
-    *(_NO_NUMBERS_OF, *(np.empty((0, wide)) for wide in (3, 3, 4, 2)), _NO_PLACES, _NO_PLACES),
-    *(_NOWHERE, _NOWHERE, _NOWHERE, _NO_ROWS, _NO_BOXES, _NONE, np.empty(0, np.int32)),
-    *(np.empty((0, 6), np.float32), _NO_NUMBERS_OF, _NO_PLACES, _NO_PLACES),
+    *(*_NO_CELLS, _NO_ROWS, _NO_BOXES, _NONE, np.empty(0, np.int32), np.empty(0, np.int32)),
+    *(np.empty((0, 6), np.float32), _NO_OWNERS, _NO_PLACES, _NO_PLACES),
     *(np.empty((0, 15)), np.empty((0, 0), np.uint64), np.uint64(0), False),
 )
 

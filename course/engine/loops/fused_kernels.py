@@ -72,7 +72,7 @@ from course.engine.loops.packet_kernels import (
 from course.engine.loops.packets import COHERENT
 from course.engine.loops.path_kernels import bounce
 from course.engine.loops.point_kernels import pull, to_viewer
-from course.engine.loops.shaft_kernels import Shafts, find_cells
+from course.engine.loops.shaft_kernels import find_cells
 
 CHUNK = 1024
 """Paths that are followed together: so many that packets stay full after a bounce, so few that their rays stay in the

@@ -320,14 +320,41 @@ def _highlight(exponent, specular, color, call, s, whole):
 
 
 @njit(**LEAN)
-def illuminate(
-    lights, k, scene, shafts, materials, numbers, pair, same, timed, scratch, counts
-):
+def _block(lights, k, scene, sent, timed, scratch, counts):
+    """Send the shadow rays in a mask; how many begin above their facets.
+
+    Nanoseconds and second rays above facets are added to ``counts``.
+    """
+    call, arguments, s, whole = scratch.call, scratch.arguments, scratch.s, scratch.whole
+    limit, raised = lights.limit[k], 0
+    if limit <= _TO_THE_LIGHT:
+        for i in range(3 * WIDTH):
+            s[SHADOW_TO + i] = s[SHADOW_TO + i] + s[P + i] - s[NEAR + i]
+    if lights.emitter[k] and (lights.kind[k] == AT_A_POINT or lights.kind[k] == RECTANGLE):
+        _short_of(lights.normal[k], s)
+    if len(scene.bulge):
+        raised = _raise(scene.bulge, scene.most, limit, s, whole)
+        counts[SECOND_RAYS] += raised
+    start = nanoseconds(call) if timed else 0
+    time, others = s[TIME : TIME + WIDTH], whole[OTHERS : OTHERS + WIDTH]
+    scenes, velocity, boxes = scene.blockers, scene.velocity, scene.boxes
+    if raised:
+        above, mask = s[ABOVE : ABOVE + PACKET], whole[RAISED : RAISED + WIDTH]
+        occlude(scenes, velocity, boxes, time, 0, WIDTH, above, mask, others, arguments)
+    packet, mask = s[SHADOW : SHADOW + PACKET], whole[sent : sent + WIDTH]
+    occlude(scenes, velocity, boxes, time, 0, WIDTH, packet, mask, others, arguments)
+    if timed:
+        counts[NANOSECONDS] += nanoseconds(call) - start
+    return raised
+
+
+@njit(**LEAN)
+def illuminate(lights, k, scene, shafts, materials, numbers, pair, same, timed, scratch, counts):
     """Add what hits reflect of light k, but for the reflectances, to ``DIFFUSE`` and ``SPECULAR``; how many may be lit.
 
     ``ASKED`` are the hits that cast a shadow ray. Nanoseconds and second rays above facets are added to ``counts``.
     """
-    call, arguments, s, whole = scratch.call, scratch.arguments, scratch.s, scratch.whole
+    call, s, whole = scratch.call, scratch.s, scratch.whole
     if lights.width[k]:
         draw(numbers, pair, 2, same, s, whole, U)
         if lights.width[k] > 2:
@@ -360,36 +387,19 @@ def illuminate(
         candidates += faces
     if candidates == 0:
         return 0
-    limit, raised = lights.limit[k], 0
+    limit, sends, sent, raised = lights.limit[k], True, ASKED, 0
+    for i in range(WIDTH):
+        s[SHADOW_TFAR + i] = limit
     for i in range(3 * WIDTH):
         # The light is looked at from the hit, and the shadow ray begins above it.
         s[POINT + i] = s[SHADOW_TO + i]
-        if limit <= _TO_THE_LIGHT:
-            s[SHADOW_TO + i] = s[SHADOW_TO + i] + s[P + i] - s[NEAR + i]
-    if lights.emitter[k] and (lights.kind[k] == AT_A_POINT or lights.kind[k] == RECTANGLE):
-        _short_of(lights.normal[k], s)
-    if len(scene.bulge):
-        raised = _raise(scene.bulge, scene.most, limit, s, whole)
-        counts[SECOND_RAYS] += raised
-    for i in range(WIDTH):
-        s[SHADOW_TFAR + i] = limit
-    sends, mask = True, whole[ASKED : ASKED + WIDTH]
     if len(shafts.slot) and shafts.slot[k] >= 0:
         clear, cut = spare(shafts, k, s, whole, scratch)
         counts[CLEAR] += clear
         counts[CUT_OFF] += cut
-        sends, mask = clear + cut < candidates, whole[SENT : SENT + WIDTH]
-    start = nanoseconds(call) if timed else 0
-    time, others = s[TIME : TIME + WIDTH], whole[OTHERS : OTHERS + WIDTH]
-    scenes, velocity, boxes = scene.blockers, scene.velocity, scene.boxes
-    if raised:
-        above, high = s[ABOVE : ABOVE + PACKET], whole[RAISED : RAISED + WIDTH]
-        occlude(scenes, velocity, boxes, time, 0, WIDTH, above, high, others, arguments)
+        sends, sent = clear + cut < candidates, SENT
     if sends:
-        packet = s[SHADOW : SHADOW + PACKET]
-        occlude(scenes, velocity, boxes, time, 0, WIDTH, packet, mask, others, arguments)
-    if timed:
-        counts[NANOSECONDS] += nanoseconds(call) - start
+        raised = _block(lights, k, scene, sent, timed, scratch, counts)
     # Embree sets tfar to minus infinity where something is in the way.
     for i in range(WIDTH):
         free = (whole[ASKED + i] != 0) & (s[SHADOW_TFAR + i] >= 0)

@@ -27,11 +27,13 @@ the reflectance, behind which BENT and ETA have the cosine and the ratio of indi
 BENT, ETA = SHARE + WIDTH, SHARE + 2 * WIDTH
 PLANE, EDGES, CORNERS = (_FIRST + (54 + number) * WIDTH for number in (0, 8, 15))
 """Columns of the hit triangles in ``Triangles``."""
-STRENGTH = _FIRST + 78 * WIDTH
+CUBE, OWNER, KNOWN = (_FIRST + (78 + number) * WIDTH for number in range(3))
+"""Integers: the halves of the key of each hit's cell, and a mask of shadow rays that a shaft may tell of."""
+STRENGTH = _FIRST + 81 * WIDTH
 """What each group of a light of triangles sends to a point."""
-ALL_ROWS = 3 * ROWS + 54 + 24 + -(-GROUPS // WIDTH)
+ALL_ROWS = 3 * ROWS + 54 + 27 + -(-GROUPS // WIDTH)
 
-_integers = (number * WIDTH for number in range(18))
+_integers = (number * WIDTH for number in range(15))
 (
     HIT,
     ASKED,
@@ -48,14 +50,11 @@ _integers = (number * WIDTH for number in range(18))
     LIT,
     WAY,
     SENT,
-    KNOWN,
-    CUBE,
-    OWNER,
 ) = _integers
 """Rows of integers: masks (-1 or 0), what is hit, and of each path its number, pixel, sample, medium, object left;
-whether light from lamps and the environment counts; the way that a path takes; masks of shadow rays that are
-sent, and that a shaft may tell of; and the two halves of a cell's key."""
-ALL_INTEGERS = 18
+whether light from lamps and the environment counts; the way that a path takes; and shadow rays that are
+sent."""
+ALL_INTEGERS = 15
 
 SHADOW_TO, SHADOW_TFAR = SHADOW + TO, SHADOW + TFAR
 

@@ -19,6 +19,10 @@ ROW = types.float32[::1]
 OBJECTS = types.int8[::1]
 """(N,) int8, contiguous: numbers of convex objects."""
 
+# LLVM unrolls the short loops over a packet's lanes before it looks for vectors in loops: this finds them afterwards.
+# Sums keep their order, so the bits are the same.
+numba.config.SLP_VECTORIZE = 1
+
 OPTIONS = {"nogil": True, "cache": True, "error_model": "numpy"}
 """Without the interpreter lock, kept on disk, and with divisions by zero as NumPy has them."""
 

@@ -1,7 +1,6 @@
 """What shafts tell of shadow rays, compiled by Numba; a part of the fused loop.
 
-It does what ``course.engine.terms.shafts.cells``, ``shaft_walk`` and ``shafts`` do, but looks at one shaft at a time, and only
-until its first obstacle.
+It does what ``course.engine.terms.shafts`` does, but looks at one shaft at a time, and only until its first obstacles.
 """
 
 import math
@@ -10,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from course.engine.core.types import Floats32, Floats64, Indices, Numbers
 from course.engine.loops.lanes import (
     ASKED,
     CUBE,
@@ -17,21 +17,22 @@ from course.engine.loops.lanes import (
     NG,
     OFFSET,
     OWNER,
-    POINT,
     SENT,
     SHADOW_TFAR,
+    SHADOW_TO,
     SIDE,
     TIME,
     TRIANGLE,
     A,
     B,
+    C,
     P,
 )
 from course.engine.loops.options import LEAN, OPTIONS, njit
 from course.engine.loops.packet_kernels import WIDTH
-from course.engine.core.types import Floats32, Floats64, Indices, Numbers
 from course.engine.terms.shafts.boxes import BRANCH, LEAF
 from course.engine.terms.shafts.cells import FINEST
+from course.engine.terms.shafts.stage import MULTIPLIER, PROBES
 from course.engine.terms.shafts.walk import (
     AROUND,
     CLEAR,
@@ -46,12 +47,12 @@ from course.engine.terms.shafts.walk import (
     STEEPEST,
     TURNS,
 )
-from course.engine.terms.shafts.stage import MULTIPLIER, PROBES
 
 _Y, _Z = WIDTH, 2 * WIDTH
 _TWO, _ONE = np.float32(2), np.float32(1)
 _MANTISSA, _BIAS = np.int32(23), np.int32(127)
-_BITS, _LAST = np.int32(FINEST), np.int32((1 << FINEST) - 1)
+_BITS, _TWICE, _LAST = np.int32(FINEST), np.int32(2 * FINEST), np.int32((1 << FINEST) - 1)
+_NONE, _ALL, _SIGN, _DEEP = np.int32(0), np.int32(-1), np.int32(31), np.int32(FINEST)
 _MULTIPLIER, _SHIFT, _STATE = np.uint64(MULTIPLIER), np.uint64(2), np.uint64(3)
 _BESIDE, _BETWEEN = 1, 2
 
@@ -93,6 +94,7 @@ class Shafts(NamedTuple):
     sweep: Floats32
     room: Floats32
     number: Numbers
+    leaf: Numbers
     boxes: Floats32
     numbers: Numbers
     level: Indices
@@ -106,69 +108,77 @@ class Shafts(NamedTuple):
 @njit(**LEAN)
 def find_cells(shafts, s, whole):
     """The cells of the hits, see ``keys_of``: CUBE has level and two coordinates, OWNER owner and the third one."""
-    eye, corner, size = shafts.eye, shafts.corner, shafts.size
+    n, size, across = s.view(np.int32), shafts.size[1], shafts.size[0]
+    eye_x, eye_y, eye_z = shafts.eye[0], shafts.eye[1], shafts.eye[2]
+    x0, y0, z0 = shafts.corner[0], shafts.corner[1], shafts.corner[2]
     for i in range(WIDTH):
-        x, y, z = s[P + i] - eye[0], s[P + _Y + i] - eye[1], s[P + _Z + i] - eye[2]
-        s[A + i] = size[1] / (x * x + y * y + z * z)
-        owner = shafts.owner[np.uint64(whole[TRIANGLE + i]), 0 if s[SIDE + i] > 0 else 1]
-        whole[OWNER + i] = owner << _BITS
-    bits, power = s[A : A + WIDTH].view(np.int32), s[B : B + WIDTH].view(np.int32)
+        side = np.int64(0) if s[SIDE + i] > 0 else np.int64(1)
+        n[OWNER + i] = shafts.owner[np.uint64(whole[TRIANGLE + i]), side] << _BITS
     for i in range(WIDTH):
-        level = ((bits[i] >> _MANTISSA) - _BIAS) >> np.int32(1)
-        level = min(max(level, np.int32(0)), np.int32(FINEST))
-        power[i] = (level + _BIAS) << _MANTISSA
-        whole[CUBE + i] = level << np.int32(2 * FINEST)
+        x, y, z = s[P + i] - eye_x, s[P + _Y + i] - eye_y, s[P + _Z + i] - eye_z
+        s[A + i] = size / (x * x + y * y + z * z)
     for i in range(WIDTH):
-        fine = s[B + i]
-        x = np.int32((s[P + i] - corner[0]) * size[0] * fine)
-        y = np.int32((s[P + _Y + i] - corner[1]) * size[0] * fine)
-        z = np.int32((s[P + _Z + i] - corner[2]) * size[0] * fine)
-        whole[CUBE + i] |= (x & _LAST) << _BITS | (y & _LAST)
-        whole[OWNER + i] |= z & _LAST
+        level = ((n[A + i] >> _MANTISSA) - _BIAS) >> np.int32(1)
+        level = _NONE if level < _NONE else level
+        level = _DEEP if level > _DEEP else level
+        n[B + i], n[C + i] = (level + _BIAS) << _MANTISSA, level << _TWICE
+    for i in range(WIDTH):
+        x = np.int32((s[P + i] - x0) * across * s[B + i])
+        y = np.int32((s[P + _Y + i] - y0) * across * s[B + i])
+        z = np.int32((s[P + _Z + i] - z0) * across * s[B + i])
+        n[CUBE + i] = n[C + i] | (x & _LAST) << _BITS | (y & _LAST)
+        n[OWNER + i] = n[OWNER + i] | z & _LAST
 
 
 @njit(**LEAN)
 def spare(shafts, k, s, whole, scratch):
-    """SENT are those of the rays in ASKED, towards light k, that must be sent; how many are clear, and how many cut off."""
-    row, told = shafts.slot[k], scratch.told
-    some, same = np.int32(0), True
+    """SENT are those of the rays in ASKED, towards light k, that must be sent; how many are clear, and are cut off.
+
+    Rays are those from the hits to the light's points in SHADOW_TO; their SHADOW_TFAR is below 0 if they are cut off.
+    """
+    row, told, n = shafts.slot[k], scratch.told, s.view(np.int32)
     cube, owner = np.int32(told[row, 0]), np.int32(told[row, 1])
     for i in range(WIDTH):
+        n[KNOWN + i] = whole[SENT + i] = whole[ASKED + i]
+    for i in range(WIDTH):
         height = (
-            s[NG + i] * s[POINT + i]
-            + s[NG + _Y + i] * s[POINT + _Y + i]
-            + s[NG + _Z + i] * s[POINT + _Z + i]
+            s[NG + i] * s[SHADOW_TO + i]
+            + s[NG + _Y + i] * s[SHADOW_TO + _Y + i]
+            + s[NG + _Z + i] * s[SHADOW_TO + _Z + i]
         )
-        certain = (whole[ASKED + i] != 0) & (height > _TWO * s[OFFSET + i])
-        certain &= whole[OWNER + i] >= 0
-        if shafts.moves:
-            certain &= (s[TIME + i] >= 0) & (s[TIME + i] <= 1)
-        whole[KNOWN + i] = -1 if certain else 0
-        whole[SENT + i] = whole[ASKED + i]
-        some += certain
-        same &= (whole[CUBE + i] == cube) & (whole[OWNER + i] == owner) | (not certain)
+        high = _ALL if height > _TWO * s[OFFSET + i] else _NONE
+        # An owner that is none is negative.
+        n[KNOWN + i] = n[KNOWN + i] & high & ~(n[OWNER + i] >> _SIGN)
+    if shafts.moves:
+        for i in range(WIDTH):
+            during = (s[TIME + i] >= 0) & (s[TIME + i] <= 1)
+            n[KNOWN + i] = n[KNOWN + i] & (_ALL if during else _NONE)
+    some = others = _NONE
+    for i in range(WIDTH):
+        some -= n[KNOWN + i]
+        others |= ((n[CUBE + i] ^ cube) | (n[OWNER + i] ^ owner)) & n[KNOWN + i]
+    clear = cut = np.int64(0)
     if some == 0:
-        return 0, 0
-    if same:
+        return clear, cut
+    if others == 0:
         # Nearly all packets of camera rays, and of coherent ones.
         state = told[row, 2]
         if state == MIXED:
-            return 0, 0
+            return clear, cut
         for i in range(WIDTH):
-            whole[SENT + i] &= ~whole[KNOWN + i]
+            whole[SENT + i] &= ~n[KNOWN + i]
         if state == CLEAR:
-            return some, 0
+            return np.int64(some), cut
         for i in range(WIDTH):
             # As Embree marks a ray that something is in the way of.
-            s[SHADOW_TFAR + i] = -_ONE if whole[KNOWN + i] else s[SHADOW_TFAR + i]
-        return 0, some
-    clear = cut = 0
+            s[SHADOW_TFAR + i] = -_ONE if n[KNOWN + i] else s[SHADOW_TFAR + i]
+        return clear, np.int64(some)
     for i in range(WIDTH):
-        if whole[KNOWN + i] == 0:
+        if n[KNOWN + i] == 0:
             continue
-        if whole[CUBE + i] != told[row, 0] or whole[OWNER + i] != told[row, 1]:
-            told[row, 0], told[row, 1] = whole[CUBE + i], whole[OWNER + i]
-            told[row, 2] = _look_up(shafts, row, whole[CUBE + i], whole[OWNER + i], scratch)
+        if n[CUBE + i] != told[row, 0] or n[OWNER + i] != told[row, 1]:
+            told[row, 0], told[row, 1] = n[CUBE + i], n[OWNER + i]
+            told[row, 2] = _look_up(shafts, row, n[CUBE + i], n[OWNER + i], scratch)
         state = told[row, 2]
         if state != MIXED:
             whole[SENT + i] = 0
@@ -221,7 +231,9 @@ def _shaft_state(shafts, row, key, walk, pile):
         if pile[PILE - 1 - level] > MOST:
             return np.int64(MIXED)
         if level == 0:
-            for t in range(LEAF * number, min(LEAF * (number + 1), len(shafts.number))):
+            begin = LEAF * np.int64(shafts.leaf[number])
+            end = min(begin + LEAF, len(shafts.number))
+            for t in range(begin, end):
                 if first <= shafts.number[t] < last or not _meets_triangle(shafts, t, walk):
                     continue
                 lies = _lies(shafts, row, t, walk)
@@ -347,13 +359,10 @@ def _meets_triangle(shafts, t, walk):
     for number in ORDER:
         k = 4 * number
         nx, ny, nz = walk[k], walk[k + 1], walk[k + 2]
-        least = min(
-            min(
-                np.float64(p[0]) * nx + np.float64(p[1]) * ny + np.float64(p[2]) * nz,
-                np.float64(p[3]) * nx + np.float64(p[4]) * ny + np.float64(p[5]) * nz,
-            ),
-            np.float64(p[6]) * nx + np.float64(p[7]) * ny + np.float64(p[8]) * nz,
-        )
+        a = np.float64(p[0]) * nx + np.float64(p[1]) * ny + np.float64(p[2]) * nz
+        b = np.float64(p[3]) * nx + np.float64(p[4]) * ny + np.float64(p[5]) * nz
+        c = np.float64(p[6]) * nx + np.float64(p[7]) * ny + np.float64(p[8]) * nz
+        least = min(a, b, c)
         if len(shafts.sweep):
             way = shafts.sweep[t]
             moved = np.float64(way[0]) * nx + np.float64(way[1]) * ny + np.float64(way[2]) * nz

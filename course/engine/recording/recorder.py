@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from course.engine.core.counters import Counters
 from course.engine.core.direct import Candidates, DirectLight
 from course.engine.core.hits import Hits
 from course.engine.core.lights.sample import Light, Sample
@@ -18,6 +19,7 @@ from course.engine.core.types import Floats32, Indices, Mask, Materials
 from course.engine.core.vectors import dot
 from course.engine.functions.contracts import contract
 from course.engine.recording.asking import Asking
+from course.engine.terms.shafts.stage import UNKNOWN
 
 LARGEST_ARGUMENT = 16
 """Numbers of an argument that isn't one of each ray's; larger ones, such as pictures, are told by their shape."""
@@ -65,6 +67,7 @@ class Recorder:
     stage : what the functions are called for: "camera", a light's name, "mirrored", "refracted", "bounce", or what
         rays meet ("environment", "surface")
     material : of those rays' hits, where functions are asked for all hits on a material; else None
+    shafts : of the tracer, whose rays are all sent; None if it has none
     weights : (pixels, samples) that the film's filter gave the last block; None without one
     asked : "module.function" -> how often it was asked for the recorded rays
     """
@@ -83,6 +86,7 @@ class Recorder:
         self.asking: Asking | None = None
         self.weights: Floats32 | None = None
         self.sky: Any = None
+        self.shafts: Any = None
         self._wanted: Mask = np.zeros(0, np.bool_)
         self._known: list[tuple[Any, Indices]] = []
         self._block: Any = None
@@ -181,12 +185,22 @@ class Recorder:
         if candidates.columns is not None:
             columns = np.arange(len(columns))
         shown = direct.reflection.reflected(hits, sums)
-        self.tell_shadows(shown, light.name, candidates.index, columns, free.take(columns))
+        # Probes of shafts are none of the picture's rays.
+        told = self.shafts and self.shafts.states(light, hits, candidates, Counters())
+        told = np.full(len(free), UNKNOWN) if told is None else told
+        facts = free.take(columns), told.take(columns)
+        self.tell_shadows(shown, light.name, candidates.index, columns, *facts)
 
     def tell_shadows(
-        self, shown: Floats32, light: str, which: Indices, columns: Indices, free: Any = None
+        self,
+        shown: Floats32,
+        light: str,
+        which: Indices,
+        columns: Indices,
+        free: Any = None,
+        shaft: Any = UNKNOWN,
     ) -> None:
-        """Tell of m shadow rays: their hits, their columns among those asked, and radiance (3, n) of all hits."""
+        """Tell of m shadow rays: hits, columns among those asked, radiance (3, n) of all hits, and what shafts told."""
         assert self.asking is not None
         origin, direction, far, triangle = self.asking.blockers(columns)
         ids = self.ids.take(which)
@@ -200,6 +214,7 @@ class Recorder:
             far=far,
             free=self.asking.last[3].take(columns) if free is None else free,
             triangle=triangle,
+            shaft=shaft,
             value=shown.take(which, axis=1),
         )
 

@@ -12,6 +12,7 @@ from course.engine.formats.yaml import description as d
 from course.engine.recording.recorder import ENVIRONMENT_LIGHT, Recorder, RecordTable
 from course.engine.scene.building.materials import material_columns
 from course.engine.scene.scene import Scene
+from course.engine.terms.shafts.walk import CLEAR, CUT_OFF, MIXED
 
 ENVIRONMENT = "environment"
 
@@ -23,6 +24,8 @@ ROUNDING = 1e-6
 
 ONWARD = {"mirrored", "refracted", "bounce"}
 """How rays go on from a surface."""
+
+SHAFTS = {CLEAR: "clear", MIXED: "mixed", CUT_OFF: "cut off"}
 
 Triple = tuple[float, float, float]
 
@@ -60,6 +63,7 @@ class Segment:
     material : of that object; None for lights and the environment
     light : that a shadow ray asks for; None for other rays
     blocked : whether something is between a shadow ray's start and its light
+    shaft : what is known of the ways between its cell and the light: "clear", "mixed" or "cut off"; None if nothing
     aim : the point of the light that a shadow ray asks for; None for other rays
     before, after : throughput at the end of the parent, and at this segment's own end
     radiance : what it brings to its sample [W/(m^2 sr)]: light that its end gives off or that arrives from the
@@ -91,6 +95,7 @@ class Segment:
     calls: list[Call]
     numbers: dict[str, list[float]] = field(default_factory=dict)
     unlit: dict[str, str] = field(default_factory=dict)
+    shaft: str | None = None
 
 
 class Names:
@@ -252,6 +257,7 @@ class _Reading:
             radiance=_triple(row["value"] * np.asarray(parent.after)),
             source="the environment" if sky else row["light"],
             calls=self._made(int(row["id"]), {row["light"]}),
+            shaft=SHAFTS.get(int(row["shaft"])),
         )
 
     def _kind(self, row: dict[str, Any]) -> str:

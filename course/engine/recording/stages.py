@@ -131,7 +131,9 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
         asking = Asking(integrator.surface.accelerator)
         recorder.asking = asking
         seen: dict[str, Any] = same_fields(integrator.surface) | {"accelerator": asking}
-        seen = {"surface": type(integrator.surface)(**seen)}
+        # All rays are sent, and what their shafts would have told is told beside.
+        recorder.shafts = integrator.direct.spare
+        seen = {"surface": type(integrator.surface)(**seen), "spare": None}
         if (sky := integrator.direct.sky) is not None:
             seen["sky"] = _as(RecordedSky, sky, recorder, surface=seen["surface"])
         choice = getattr(integrator.direct, "choice", None)

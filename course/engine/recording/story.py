@@ -276,6 +276,8 @@ class Story:
                 else text
             )
             line.below = self._functions(group)
+            if any(one.shaft for one in group):
+                line.below.append(Line(_shafts(group)))
             lines.append(line)
         for (light, why), count in Counter(
             (lamp, w) for o in hits for lamp, w in o.unlit.items()
@@ -373,6 +375,23 @@ class Story:
                 vars(one) | {"calls": [vars(call) for call in one.calls]} for one in self.segments
             ],
         }
+
+
+def _shafts(shadows: Sequence[Segment]) -> str:
+    """Which of the shadow rays to a light a render sends."""
+    counts = Counter(one.shaft for one in shadows)
+    why = {
+        "clear": "with nothing between their cell and all of the light",
+        "cut off": "with one triangle between their cell and all of it",
+    }
+    spared = [f"{counts[shaft]} {said}" for shaft, said in why.items() if counts[shaft]]
+    if not spared:
+        return (
+            "shafts: something is between each ray's cell and a part of the light, so all are sent"
+        )
+    sent = len(shadows) - counts["clear"] - counts["cut off"]
+    rest = f"; {sent} {_some(sent, 'is', 'are')}" if sent else ""
+    return f"shafts: a render doesn't send {_listed(spared)}{rest}"
 
 
 def _by(segments: Iterable[Segment], key: Callable[[Segment], str]) -> dict[str, list[Segment]]:

@@ -34,6 +34,9 @@ class Receipt:
     denoising : where the PNG is a biased preview: the "neighbours" a pixel is averaged with, and estimates of the
         root-mean-square "noise" before, of what is "left" of it, and of the "bias" [radiance]; else None
     tests : where a hierarchy takes the place of Embree: "boxes" and "triangles" that rays were tested with; else None
+    spared : where shafts told of shadow rays, how many weren't sent: "clear" if nothing is in their shaft, "cut off" if
+        one triangle blocks all of it; without compiled loops also "probes", rays that were sent to see which shafts are
+        worth a look; else None
     """
 
     rays: dict[str, int]
@@ -52,11 +55,12 @@ class Receipt:
     subdivision: dict[str, float] | None = None
     tests: dict[str, int] | None = None
     denoising: dict[str, float] | None = None
+    spared: dict[str, int] | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, as written by ``course render --receipt``; without what there was none of."""
         told = asdict(self)
-        for part in ("subdivision", "tests", "denoising"):
+        for part in ("subdivision", "tests", "denoising", "spared"):
             if told[part] is None:
                 del told[part]
         return told

@@ -249,6 +249,7 @@ def _receipt(
         yours["not called"] = idle
     return Receipt(
         rays=dict(counters.rays),
+        spared=dict(counters.spared) or None,
         numbers=dict(counters.numbers),
         effects={"called": called, "skipped": skipped} | yours,
         seconds=dict(counters.seconds),

@@ -1,0 +1,1 @@
+"""Shadow rays that need not be sent, by the shafts between cells on surfaces and lights."""

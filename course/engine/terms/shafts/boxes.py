@@ -1,8 +1,9 @@
 """Boxes around boxes around triangles, for shafts: what may block rays between two regions.
 
-Triangles are put in the order of a curve through space (Morton's) and boxed eight at a time, then these boxes four at
-a time. So the hierarchy is a few arrays, made by NumPy in a fraction of the time that a caster takes for its own.
-Movers have the boxes that they sweep while the shutter is open.
+Triangles are boxed eight at a time, in the order of their meshes, where neighbours follow each other. These boxes are
+put in the order of a curve through space (Morton's), and boxed four at a time. So the hierarchy is a few arrays, made
+by NumPy in a fraction of the time that a caster takes for its own. Movers have the boxes that they sweep while the
+shutter is open.
 """
 
 from dataclasses import dataclass
@@ -25,7 +26,7 @@ _CELLS = 1024
 
 
 class Boxes(NamedTuple):
-    """T triangles that may block rays, in the order of the boxes around them.
+    """T triangles that may block rays.
 
     Attributes
     ----------
@@ -33,6 +34,7 @@ class Boxes(NamedTuple):
     sweep : (T, 3) float32, how far each moves while the shutter is open; (0, 3) if none does
     room : (T,) float32, distance by which a caster's test of it may err
     number : (T,) int32, its number among all triangles of the scene
+    leaf : (L,) int32, in the order of the leaves, of which eight triangles each is made
     boxes : (B, 6) float32, lowest and highest corners with that room: leaves first, the one around all last
     numbers : (B, 2) int32, the least and the largest number of a triangle in each
     level : (levels + 1,) at which box each level begins, and B
@@ -42,6 +44,7 @@ class Boxes(NamedTuple):
     sweep: Floats32
     room: Floats32
     number: Numbers
+    leaf: Numbers
     boxes: Floats32
     numbers: Numbers
     level: Indices
@@ -52,7 +55,7 @@ class _Some:
     """Triangles of an accelerator: their corners, numbers in the scene, and motion."""
 
     corners: Floats32
-    number: Numbers
+    number: Indices
     sweep: Floats32
 
 
@@ -92,26 +95,26 @@ def _boxed(corners: Floats32, number: Numbers, sweep: Floats32, room: Floats32) 
     moves = bool(sweep.any())
     if moves:
         low, high = low + np.minimum(sweep, 0), high + np.maximum(sweep, 0)
-    order = _along_curve(low + high)
     # A float32 sum may round inwards, by less than a tenth of this room.
     wide = np.float32(1.25) * room[:, None]
-    number = number[order]
-    boxes, level = _levels(np.concatenate((low - wide, -high - wide), axis=1)[order])
-    numbers, _ = _levels(np.stack((number, -number), axis=1))
+    begins = np.arange(0, len(corners), LEAF)
+    rows = [np.minimum.reduceat(low - wide, begins), np.minimum.reduceat(-high - wide, begins)]
+    spans = [ways.reduceat(number, begins) for ways in (np.minimum, np.maximum)]
+    leaf = _along_curve(rows[0] - rows[1])
+    boxes, level = _levels(np.concatenate(rows, axis=1)[leaf])
+    numbers, _ = _levels(np.stack((spans[0], -spans[1]), axis=1)[leaf])
     boxes[:, 3:] *= -1
     numbers[:, 1] *= -1
-    sweep = sweep[order] if moves else np.empty((0, 3), np.float32)
-    return Boxes(corners[order], sweep, room[order], number, boxes, numbers, level)
+    sweep = np.ascontiguousarray(sweep) if moves else np.empty((0, 3), np.float32)
+    return Boxes(corners, sweep, room, number, leaf.astype(np.int32), boxes, numbers, level)
 
 
 def _levels(rows: NDArray[Any]) -> tuple[NDArray[Any], Indices]:
-    """The least of the rows in each box, level by level, and where levels begin."""
-    levels, count = [rows], LEAF
-    while len(levels[-1]) > 1 or count == LEAF:
-        rows = levels[-1]
-        levels.append(np.minimum.reduceat(rows, np.arange(0, len(rows), count), axis=0))
-        count = BRANCH
-    return np.concatenate(levels[1:]), np.cumsum([0, *map(len, levels[1:])])
+    """The rows, and the least of those in each box, level by level; and where levels begin."""
+    levels = [rows]
+    while len(rows := levels[-1]) > 1:
+        levels.append(np.minimum.reduceat(rows, np.arange(0, len(rows), BRANCH), axis=0))
+    return np.concatenate(levels), np.cumsum([0, *map(len, levels)])
 
 
 def _along_curve(middles: Floats32) -> Indices:

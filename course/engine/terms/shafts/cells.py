@@ -21,10 +21,11 @@ FINEST = 14
 
 MOST_OWNERS = 1 << 15
 
-FLAT = 2.0**-21
-"""Height by which corners may miss the plane of a flat object, as a share of its largest coordinate: a rounding."""
+ALIKE, FLAT = 0.999, 0.25
+"""Cosine between normals of a flat object, at least; and height by which its corners may miss its plane, at most, as a
+share of the distance by which rays leave it."""
 
-SMALL = 0.25
+SMALL = 4.0
 """Share of the area of a cube's side there that a triangle has at least to own cells."""
 
 ROOM = 2.0**-20
@@ -41,8 +42,8 @@ class Cells(NamedTuple):
 
     Attributes
     ----------
-    owner : (T, 2) int32, of the front and the back of each triangle, movers' too: twice its number, plus 1 on the side to which the
-        normal of its plane doesn't point; -1 for none
+    owner : (T, 2) int32, of the front and the back of each triangle, movers' too: twice its number, plus 1 on the side
+        to which the normal of its plane doesn't point; -1 for none
     low, high : (K, 3) float64, corners of each owner's box, with room for where rays leave it
     plane : (K, 4) float64, unit normal and height of flat owners; 0 for solid ones
     leave : (K, 2) float64, least distance at which rays leave each, and room around where they do
@@ -64,7 +65,9 @@ class Cells(NamedTuple):
     size: Floats32
 
 
-def cells_of(boxes: Boxes, triangles: Triangles, still: int, camera: Camera, pixels: float) -> Cells:
+def cells_of(
+    boxes: Boxes, triangles: Triangles, still: int, camera: Camera, pixels: float
+) -> Cells:
     """The cells of a scene.
 
     Parameters
@@ -73,99 +76,132 @@ def cells_of(boxes: Boxes, triangles: Triangles, still: int, camera: Camera, pix
     pixels : width of a cell, as the camera sees it
     """
     pixel = float(np.linalg.norm(camera.step_x.astype(np.float64))) * pixels
-    planes = triangles.planes[:still]
-    p0 = planes[:, :3].astype(np.float64)
-    e1, e2 = (triangles.edges[:still, at : at + 3].astype(np.float64) for at in (0, 3))
-    corners = np.stack((p0, p0 + e1, p0 + e2))
-    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    reach = float(np.abs((low, high)).max())
-    room = ROOM * max(reach, float(np.abs(boxes.boxes[-1]).max()))
-    low -= room
-    width = float((high - low).max()) + room
-    owners = _Owners(planes, corners, room)
-    begin = 0
+    corners = _corners(triangles, slice(0, still))
+    low, high = bounds(corners)
+    around = np.concatenate((low, high, boxes.boxes[-1]))
+    room = ROOM * max(float(np.abs(around).max()), 1e-30)
+    # Float32 may round corners inwards, by less than the room.
+    corner = (low - room).astype(np.float32)
+    width = float((high - low).max()) + 3 * room
+    owners = _Owners(triangles, room)
+    begin, loose = 0, [np.empty(0, np.intp)]
     for _, count, convex in triangles.parts:
-        part = slice(begin, min(begin + count, still))
-        if part.stop - part.start == count > 0:
-            owners.add_object(part, convex)
+        if count > 0 and begin + count <= still and not owners.add_object(begin, count, convex):
+            loose.append(np.arange(begin, begin + count))
         begin += count
-    distance = np.linalg.norm(p0 + (e1 + e2) / 3 - camera.origin, axis=1)
-    owners.add_large(SMALL * (pixel * distance) ** 2)
-    most = np.float32(min((width / pixel) ** 2, 1e30))
-    size = np.array((1 / width, most), np.float32)
-    owner, *arrays = owners.arrays()
-    every = np.full((len(triangles.planes), 2), -1, np.int32)
-    every[:still] = owner
-    return Cells(every, *arrays, camera.origin.copy(), low.astype(np.float32), size)
+    owners.add_large(np.concatenate(loose), camera.origin, SMALL * pixel * pixel)
+    size = np.array((1 / width, min((width / pixel) ** 2, 1e30)), np.float32)
+    columns: Any = owners.columns()
+    return Cells(owners.number, *columns, *(camera.origin.copy(), corner, size))
+
+
+def bounds(corners: NDArray[Any]) -> Floats64:
+    """The lowest and the highest corner (2, 3) of some (n, 3)."""
+    # Column by column: along rows of three, NumPy takes several times as long.
+    return np.array([[way(c) for c in corners.T] for way in (np.min, np.max)], np.float64)
+
+
+def _corners(triangles: Triangles, which: slice | Indices) -> Floats32:
+    """Corners (3 m, 3) of some triangles: all first ones, then the others."""
+    p0, edges = triangles.planes[which, :3], triangles.edges[which]
+    return np.concatenate((p0, p0 + edges[:, :3], p0 + edges[:, 3:6]))
 
 
 class _Owners:
-    """Owners, as they are found; arrays of the triangles that stand still, and ``room`` around all owners."""
+    """Owners, as they are found, with ``room`` around them.
 
-    def __init__(
-        self, planes: Floats32, corners: Floats64, room: float
-    ) -> None:
-        self._offset, self._room = planes[:, 6].astype(np.float64), room
-        self._corners = corners
-        normal = cross((corners[1] - corners[0]).T, (corners[2] - corners[0]).T)
-        self._twice_area = np.sqrt(dot(normal, normal))
-        self._normal = (normal / np.maximum(self._twice_area, 1e-300)).T
-        self._facing = (self._normal * planes[:, 3:6]).sum(axis=1) > 0
-        self._owner = np.full((len(planes), 2), -1, np.int32)
-        self._rows: list[tuple[NDArray[Any], ...]] = []
+    ``number``: see ``Cells.owner``
+    """
 
-    def add_object(self, part: slice, convex: bool) -> None:
-        """An object owns its triangles if it is flat; it owns their fronts if it is convex."""
-        if len(self._rows) == MOST_OWNERS:
-            return
-        corners = self._corners[:, part].reshape(-1, 3)
-        largest = part.start + int(self._twice_area[part].argmax())
-        normal = self._normal[largest]
-        heights = corners @ normal
-        height = float(self._corners[0, largest] @ normal)
-        if np.abs(heights - height).max() <= FLAT * np.abs(corners).max():
-            agrees = (self._normal[part] @ normal > 0) == self._facing[part]
-            self._add_flat(np.arange(part.start, part.stop), corners, normal, height, agrees)
-        elif convex:
-            self._owner[part, 0] = 2 * len(self._rows)
-            self._add_row(corners, self._offset[part], np.zeros(4), (part.start, part.stop))
+    def __init__(self, triangles: Triangles, room: float) -> None:
+        self._triangles, self._room = triangles, room
+        self.number = np.full((len(triangles.planes), 2), -1, np.int32)
+        self._count = 0
+        self._blocks: list[tuple[NDArray[Any], ...]] = []
 
-    def add_large(self, least_area: Floats64) -> None:
-        """Triangles that no object owns, and that are large enough, own themselves."""
-        alone = (self._owner < 0).any(axis=1) & (self._twice_area / 2 > least_area)
-        for k in np.flatnonzero(alone)[: MOST_OWNERS - len(self._rows)].tolist():
-            kept = self._owner[k, 0]
-            normal = self._normal[k]
-            height = float(self._corners[0, k] @ normal)
-            numbers = np.array([k])
-            self._add_flat(numbers, self._corners[:, k], normal, height, self._facing[numbers])
-            if kept >= 0:
-                self._owner[k, 0] = kept
-
-    def _add_flat(
-        self, numbers: Indices, corners: Floats64, normal: Floats64, height: float, agrees: Mask
-    ) -> None:
-        self._owner[numbers, 0] = 2 * len(self._rows) + ~agrees
-        self._owner[numbers, 1] = 2 * len(self._rows) + agrees
-        self._add_row(corners, self._offset[numbers], np.array((*normal, height)), (0, 0))
-
-    def _add_row(
-        self, corners: Floats64, offset: Floats64, plane: Floats64, own: tuple[int, int]
-    ) -> None:
-        # Near edges origins are pulled inwards: by two offsets from each of them at most.
+    def add_object(self, begin: int, count: int, convex: bool) -> bool:
+        """An object owns its triangles if it is flat; it owns their fronts if it is convex. False for others."""
+        if self._count == MOST_OWNERS:
+            return True
+        part = slice(begin, begin + count)
+        corners = _corners(self._triangles, part)
+        normals = self._triangles.planes[part, 3:6]
+        offset = self._triangles.planes[part, 6].astype(np.float64)
+        normal, height = normals[0], 0.0
+        flat = bool((np.abs(normals @ normal) > ALIKE).all())
+        if flat:
+            exact = corners.astype(np.float64)
+            # The plane through the largest triangle errs the least.
+            largest = _twice_areas(exact.reshape(3, -1, 3)).argmax()
+            (normal,), (height,) = _planes(exact.reshape(3, -1, 3)[:, [largest]])
+            flat = bool(np.abs(exact @ normal - height).max() <= FLAT * offset.min())
+        if not (flat or convex):
+            return False
         room = 8 * offset.max() + self._room
-        low, high = corners.min(axis=0) - room, corners.max(axis=0) + room
-        self._rows.append((low, high, plane, np.array((offset.min(), room)), np.array(own)))
-
-    def arrays(self) -> tuple[Any, ...]:
-        """Columns of ``Cells``, down to ``last``."""
-        columns = zip(*self._rows, strict=True) if self._rows else [()] * 5
-        low, high, plane, leave, own = (
-            np.array(column).reshape(len(self._rows), wide)
-            for column, wide in zip(columns, (3, 3, 4, 2, 2), strict=True)
+        self._add(
+            *(bounds(corners) + np.array([[-room], [room]])),
+            *((*normal, height) if flat else np.zeros(4), (offset.min(), room)),
+            (0, 0) if flat else (begin, begin + count),
         )
+        if flat:
+            self._own_both(part, normals @ normal > 0, self._count - 1)
+        else:
+            self.number[part, 0] = 2 * (self._count - 1)
+        return True
+
+    def add_large(self, loose: Indices, eye: Floats32, least: float) -> None:
+        """Triangles that no object owns, and that are large enough, own themselves.
+
+        ``least``: area of the smallest one, at distance 1 from the eye
+        """
+        p0, edges = self._triangles.planes[loose, :3], self._triangles.edges[loose]
+        normal = cross(edges[:, :3].T, edges[:, 3:6].T)
+        away = p0 + (edges[:, :3] + edges[:, 3:6]) / 3 - eye
+        large = np.sqrt(dot(normal, normal)) / 2 > least * (away * away).sum(axis=1)
+        loose = loose.compress(large)[: MOST_OWNERS - self._count]
+        if len(loose) == 0:
+            return
+        corners = _corners(self._triangles, loose).astype(np.float64).reshape(3, -1, 3)
+        normals, heights = _planes(corners)
+        facing = (normals * self._triangles.planes[loose, 3:6]).sum(axis=1) > 0
+        offset = self._triangles.planes[loose, 6].astype(np.float64)
+        room = 8 * offset + self._room
+        numbers = self._count + np.arange(len(loose))
+        self._own_both(loose, facing, numbers)
+        self._add(
+            *(corners.min(axis=0) - room[:, None], corners.max(axis=0) + room[:, None]),
+            np.column_stack((normals, heights)),
+            *(np.column_stack((offset, room)), np.zeros((len(loose), 2), np.int64)),
+        )
+
+    def _own_both(self, which: slice | Indices, agrees: Mask, numbers: Any) -> None:
+        self.number[which, 0] = 2 * numbers + ~agrees
+        self.number[which, 1] = 2 * numbers + agrees
+
+    def _add(self, *columns: Any) -> None:
+        block = tuple(np.atleast_2d(column) for column in columns)
+        self._blocks.append(block)
+        self._count += len(block[0])
+
+    def columns(self) -> tuple[Any, ...]:
+        """Columns of ``Cells``, from ``low`` to ``last``."""
+        if not self._blocks:
+            self._add(*(np.zeros((0, wide)) for wide in (3, 3, 4, 2, 2)))
+        *arrays, own = (np.concatenate(column) for column in zip(*self._blocks, strict=True))
         first, last = np.ascontiguousarray(own.T.astype(np.int64))
-        return self._owner, low, high, plane, leave, first, last
+        return *(np.ascontiguousarray(array) for array in arrays), first, last
+
+
+def _planes(corners: Floats64) -> tuple[Floats64, Floats64]:
+    """Unit normals (m, 3) and heights (m,) of the planes through corners (3, m, 3)."""
+    normal = cross((corners[1] - corners[0]).T, (corners[2] - corners[0]).T)
+    normal = (normal / np.sqrt(np.maximum(dot(normal, normal), 1e-300))).T
+    return normal, (normal * corners[0]).sum(axis=1)
+
+
+def _twice_areas(corners: Floats64) -> Floats64:
+    normal = cross((corners[1] - corners[0]).T, (corners[2] - corners[0]).T)
+    return np.sqrt(dot(normal, normal))
 
 
 def keys_of(cells: Cells, p: Floats32, triangle: Numbers, side: Floats32) -> Keys:

@@ -10,8 +10,8 @@ from course.engine.core.lights.sample import RAISED, TO_THE_LIGHT, Light
 from course.engine.core.lights.sphere import SphereLight
 from course.engine.core.types import Floats32, Floats64, Mask
 from course.engine.terms.lights.mesh_light import MeshLight
-from course.engine.terms.shafts.cells import ROOM
 from course.engine.terms.lights.visible_sphere import VisibleSphereLight
+from course.engine.terms.shafts.cells import ROOM
 
 
 class Lamp(NamedTuple):

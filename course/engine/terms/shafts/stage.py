@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from course.engine.core.accelerator import StaticAccelerator
 from course.engine.core.camera import Camera
+from course.engine.core.counters import Counters
 from course.engine.core.direct import Candidates
 from course.engine.core.hits import Hits, Surface
 from course.engine.core.integrator import Integrator
@@ -42,8 +43,8 @@ PROBES = 8
 MULTIPLIER = np.uint64(0x9E3779B97F4A7C15)
 """Spreads keys over the table: 2^64 over the golden ratio."""
 
-MOST_LIGHTS = 16
-"""Lights that have shafts; scenes with more have none."""
+MOST_LIGHTS, MOST_OBJECTS, MOST_TRIANGLES = 16, 2048, 1_000_000
+"""Scenes with more of them have no shafts: these would take too long to make, or too much memory."""
 
 WORTH = 1_000_000
 """Samples of a picture from which on shafts save more than the boxes around triangles take to be made."""
@@ -58,6 +59,7 @@ NARROWEST, WIDEST = 2.0, 16.0
 """Widths of cells in pixels: narrower ones find little more, wider ones little at all."""
 
 _ROOM_IN_TABLE, _SMALLEST, _LARGEST = 8, 1 << 12, 1 << 20
+"""Places in a table, by the cells that a picture may show; at least; and at most of all lights together."""
 
 
 class Tables(NamedTuple):
@@ -128,10 +130,10 @@ class Shafts:
         draws: Draws,
     ) -> Mask:
         """Visibility of a light, (k,), as ``ask`` tells it; what a shaft tells isn't asked."""
-        states = self.states(light, hits, candidates, draws)
+        states = self.states(light, hits, candidates, draws.counters)
         if states is None:
             return ask(light, hits, candidates, draws)
-        free = states == CLEAR
+        free: Mask = np.asarray(states == CLEAR)
         told = free | (states == CUT_OFF)
         if candidates.mask is not None:
             told &= candidates.mask
@@ -148,7 +150,7 @@ class Shafts:
         return free
 
     def states(
-        self, light: Light, hits: Hits, candidates: Candidates, draws: Draws
+        self, light: Light, hits: Hits, candidates: Candidates, counters: Counters
     ) -> NDArray[np.int8] | None:
         """UNKNOWN, CLEAR, MIXED or CUT_OFF, (k,), for the shafts of candidates' rays; None if the light has none."""
         tables = self.made
@@ -171,23 +173,28 @@ class Shafts:
         # Samples of a pixel come one after the other, and most lie in the same cell.
         begins = np.flatnonzero(np.concatenate(([True], key[1:] != key[:-1])))
         ends = np.append(begins[1:], len(key))
-        probe = partial(self._probe, light, hits, candidates, draws)
+        probe = partial(self._probe, light, hits, candidates, counters)
         states = self._look_up(tables, row, key.take(begins), (begins, ends - 1), probe)
         return np.repeat(states, ends - begins)
 
     def _probe(
-        self, light: Light, hits: Hits, candidates: Candidates, draws: Draws, which: Indices
+        self,
+        light: Light,
+        hits: Hits,
+        candidates: Candidates,
+        counters: Counters,
+        which: Indices,
     ) -> Mask:
         """Which of some candidates' rays (m,) are free."""
         time = None if hits.time is None else candidates.of(hits.time).take(which)
         to_light = candidates.to_light
         to_light = to_light if to_light.shape[1] == 1 else to_light.take(which, axis=1)
-        draws.counters.spared["probes"] += len(which)
+        counters.spared["probes"] += len(which)
         return self.surface.accelerator.unoccluded(
             candidates.origin.take(which, axis=1),
             repeated(to_light, len(which)),
             light.limit,
-            draws.counters.embree,
+            counters.embree,
             time,
         )
 
@@ -262,14 +269,18 @@ def with_shafts(integrator: Integrator, pixels: int, samples: int) -> Integrator
     """
     direct, surface = integrator.direct, integrator.surface
     rays = pixels * samples
+    triangles = len(surface.triangles.material)
     if direct is None or not 0 < len(direct.lights) <= MOST_LIGHTS or rays < WORTH:
+        return integrator
+    if len(surface.triangles.parts) > MOST_OBJECTS or triangles > MOST_TRIANGLES:
         return integrator
     if type(surface.accelerator) not in (StaticAccelerator, LampAccelerator, SweptMovers):
         return integrator
-    if rays < SAMPLES_A_TRIANGLE * len(surface.triangles.material):
+    if rays < SAMPLES_A_TRIANGLE * triangles:
         return integrator
     wide = min(max((RAYS_A_CELL / samples) ** 0.5, NARROWEST), WIDEST)
     wanted = _ROOM_IN_TABLE * pixels / wide**2 * (1 if integrator.max_depth == 0 else 2)
-    places = 1 << min(max(int(wanted), _SMALLEST), _LARGEST).bit_length() - 1
+    largest = _LARGEST // len(direct.lights)
+    places = 1 << min(max(int(wanted), _SMALLEST), largest).bit_length() - 1
     shafts = Shafts(surface, integrator.camera, direct.lights, wide, places)
     return replace(integrator, direct=replace(direct, spare=shafts))

@@ -8,6 +8,7 @@ caster err by.
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,9 +75,7 @@ def reach_of(lamp: Lamp, normal: Floats64) -> Floats64:
 class _Shafts:
     """The shafts of n cells, whose ends are boxes around ``begin`` and shapes around ``end``, (3, n) each."""
 
-    def __init__(
-        self, cells: Cells, boxes: Boxes, lamp: Lamp, keys: Keys
-    ) -> None:
+    def __init__(self, cells: Cells, boxes: Boxes, lamp: Lamp, keys: Keys) -> None:
         owner, back, self.begin, self.half = place_of(cells, keys)
         self.first, self.last = cells.first[owner], cells.last[owner]
         around = boxes.boxes[-1].astype(np.float64)
@@ -199,7 +198,8 @@ def _met(shafts: _Shafts, boxes: Boxes) -> tuple[Indices, Indices, Mask]:
         cell, number = cell.take(few), number.take(few)
         width = BRANCH if level else LEAF
         end = boxes.level[level] - boxes.level[level - 1] if level else len(boxes.number)
-        number = (number[:, None] * width + np.arange(width)).ravel()
+        first = (number if level else boxes.leaf[number]) * width
+        number = (first[:, None] + np.arange(width)).ravel()
         cell = np.repeat(cell, width)
         there = np.flatnonzero(number < end)
         cell, number = cell.take(there), number.take(there)
@@ -210,7 +210,7 @@ def _beside(
     shafts: _Shafts, cell: Indices, corners: Floats64, sweep: Floats64, room: Floats64
 ) -> tuple[Mask, Mask]:
     """Triangles whose planes have all of a shaft on one side, and those whose planes lie between its ends."""
-    normal = cross(corners[1] - corners[0], corners[2] - corners[0])
+    normal: Any = cross(corners[1] - corners[0], corners[2] - corners[0])
     normal = normal / np.sqrt(along(normal, normal))
     moved = along(sweep, normal)
     height = along(corners[0], normal)
@@ -230,14 +230,12 @@ def _beside(
     return beside, between & (moved == 0)
 
 
-def _volume(
-    p: Floats64, q: Floats64, begin: Floats64, end: Floats64
-) -> tuple[Floats64, Floats64]:
+def _volume(p: Floats64, q: Floats64, begin: Floats64, end: Floats64) -> tuple[Floats64, Floats64]:
     """Six times the volume (m,) of tetrahedra by an edge from p to q and a way, and how it grows (3, m) with its end.
 
     Its sign tells on which side the way passes the edge.
     """
-    turn = cross(p - begin, q - begin)
+    turn: Any = cross(p - begin, q - begin)
     return along(turn, end - begin), turn
 
 
@@ -250,7 +248,9 @@ def _cut_off(shafts: _Shafts, cell: Indices, corners: Floats64, room: Floats64) 
     end, lamp = shafts.end.take(cell, axis=1), shafts.lamp
     way = end - begin
     longest = np.sqrt(along(way, way)) + half.sum(axis=0)
-    longest = longest + (half.sum(axis=0) if lamp.far else float(np.abs(lamp.half).sum()) + lamp.radius)
+    longest = longest + (
+        half.sum(axis=0) if lamp.far else float(np.abs(lamp.half).sum()) + lamp.radius
+    )
     left = right = np.ones(len(cell), np.bool_)
     for k in range(3):
         edge = corners[k - 2] - corners[k]
