@@ -134,7 +134,7 @@ def _denoising(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _spared(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Shadow rays whose answers were known, and why."""
     found = receipt.get("spared", {})
-    sent = receipt["rays"]["shadow"]
+    sent = receipt["rays"].get("shadow", 0)
     total = max(sent + found.get("clear", 0) + found.get("cut off", 0), 1)
     why = {
         "clear": "of the shadow rays: nothing between their cell and the whole light",

@@ -6,6 +6,7 @@ from course.engine.core.tracer import Tracer
 from course.engine.loops.fits import fits
 from course.engine.loops.light_tree import compiled_choice
 from course.engine.terms.lights.light_choice import LightChoice
+from course.engine.terms.shafts.stage import sparing
 
 
 def has_loops(tracer: Tracer) -> bool:
@@ -20,7 +21,7 @@ def compiled(tracer: Tracer) -> Tracer:
         # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
         from course.engine.loops.fused import fused
 
-        return fused(tracer)
+        return fused(sparing(tracer))
     choice = _choice(tracer)
     if choice is None:
         return tracer

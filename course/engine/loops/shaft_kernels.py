@@ -231,9 +231,8 @@ def _shaft_state(shafts, row, key, walk, pile):
         if pile[PILE - 1 - level] > MOST:
             return np.int64(MIXED)
         if level == 0:
-            begin = LEAF * np.int64(shafts.leaf[number])
-            end = min(begin + LEAF, len(shafts.number))
-            for t in range(begin, end):
+            begin = LEAF * int(shafts.leaf[number])
+            for t in range(begin, min(begin + LEAF, len(shafts.number))):
                 if first <= shafts.number[t] < last or not _meets_triangle(shafts, t, walk):
                     continue
                 lies = _lies(shafts, row, t, walk)

@@ -21,6 +21,7 @@ from course.engine.terms.environments.sky import Sky
 from course.engine.terms.lights.light_tree import TreeChoice
 from course.engine.terms.paths.path_tracing import PathIntegrator
 from course.engine.terms.plan import same_fields
+from course.engine.terms.shafts.stage import sparing
 from course.engine.terms.surfaces.painting import ColorAt, Painting
 
 SPREAD = 64
@@ -132,7 +133,8 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
         recorder.asking = asking
         seen: dict[str, Any] = same_fields(integrator.surface) | {"accelerator": asking}
         # All rays are sent, and what their shafts would have told is told beside.
-        recorder.shafts = integrator.direct.spare
+        direct = sparing(tracer).integrator.direct
+        recorder.shafts = None if direct is None else direct.spare
         seen = {"surface": type(integrator.surface)(**seen), "spare": None}
         if (sky := integrator.direct.sky) is not None:
             seen["sky"] = _as(RecordedSky, sky, recorder, surface=seen["surface"])

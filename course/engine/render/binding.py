@@ -15,11 +15,7 @@ from course.engine.scene.scene import Scene, SceneSettings
 from course.engine.terms.paths.path_tracing import PathIntegrator
 from course.engine.terms.plan import plan
 from course.engine.terms.samplers import FUNCTIONS, make_sampler
-from course.engine.terms.shafts.stage import with_shafts
 from course.engine.terms.surfaces.surface import FullSurface
-
-EXPECTED = 16
-"""Samples of a pixel that are counted on where they go where the error is."""
 
 NARROWEST = 1e-6
 """Deviation [pixels] of a Gaussian that sees no sample beside the centre; the function is asked for no less."""
@@ -57,9 +53,6 @@ def bind(
         world = replace(world, surface=world.surface.seen_by(camera))
     arrays = settings.max_depth, settings.cutoff, sampler
     integrator, dimensions = plan(world, camera, *arrays)
-    if settings.subdivision is None:
-        few = settings.samples if settings.error is None else min(settings.samples, EXPECTED)
-        integrator = with_shafts(integrator, settings.width * settings.height, few)
     tracer = Tracer(
         settings,
         sampler,

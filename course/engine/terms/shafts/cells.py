@@ -91,8 +91,8 @@ def cells_of(
         begin += count
     owners.add_large(np.concatenate(loose), camera.origin, SMALL * pixel * pixel)
     size = np.array((1 / width, min((width / pixel) ** 2, 1e30)), np.float32)
-    columns: Any = owners.columns()
-    return Cells(owners.number, *columns, *(camera.origin.copy(), corner, size))
+    columns: tuple[Any, ...] = (*owners.columns(), camera.origin.copy(), corner, size)
+    return Cells(owners.number, *columns)
 
 
 def bounds(corners: NDArray[Any]) -> Floats64:

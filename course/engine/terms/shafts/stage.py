@@ -22,6 +22,7 @@ from course.engine.core.integrator import Integrator
 from course.engine.core.lights.sample import Light
 from course.engine.core.motion import MovingAccelerator
 from course.engine.core.rays import Draws
+from course.engine.core.tracer import Tracer
 from course.engine.core.types import Indices, Mask
 from course.engine.core.vectors import dot, repeated
 from course.engine.terms.lights.own_lamp import LampAccelerator
@@ -51,6 +52,9 @@ WORTH = 1_000_000
 
 SAMPLES_A_TRIANGLE = 16
 """The same, by the number of triangles."""
+
+EXPECTED = 16
+"""Samples of a pixel that are counted on where they go where the error is."""
 
 RAYS_A_CELL = 2048
 """Samples that a cell is to have: so many rays cost a hundred times what its shaft does."""
@@ -259,8 +263,16 @@ def _some(candidates: Candidates, which: Indices) -> Candidates:
     return Candidates(columns, columns, None, *some)
 
 
+def sparing(tracer: Tracer) -> Tracer:
+    """The tracer, with shafts where its picture is large enough."""
+    settings = tracer.settings
+    samples = settings.samples if tracer.costs is None else min(settings.samples, EXPECTED)
+    pixels = settings.width * settings.height
+    return replace(tracer, integrator=with_shafts(tracer.integrator, pixels, samples))
+
+
 def with_shafts(integrator: Integrator, pixels: int, samples: int) -> Integrator:
-    """The integrator, with shafts where they pay.
+    """The integrator, with shafts where they are worth their making.
 
     Parameters
     ----------
@@ -270,7 +282,9 @@ def with_shafts(integrator: Integrator, pixels: int, samples: int) -> Integrator
     direct, surface = integrator.direct, integrator.surface
     rays = pixels * samples
     triangles = len(surface.triangles.material)
-    if direct is None or not 0 < len(direct.lights) <= MOST_LIGHTS or rays < WORTH:
+    if direct is None or direct.spare is not None or rays < WORTH:
+        return integrator
+    if not 0 < len(direct.lights) <= MOST_LIGHTS:
         return integrator
     if len(surface.triangles.parts) > MOST_OBJECTS or triangles > MOST_TRIANGLES:
         return integrator

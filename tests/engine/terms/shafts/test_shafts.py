@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from course.engine.render.binding import bind
+from course.engine.terms.shafts.stage import sparing
 from tests.engine.terms.shafts.scenes import (
     MakeScene,
     random_scene,
@@ -136,6 +137,7 @@ def test_small_pictures_and_those_of_many_triangles_have_none(
     lamp = {"type": "sphere", "center": [0, 4, 0], "radius": 0.2, "intensity": 9}
     ball = {"shape": "sphere", "material": "floor", "radius": 0.8, "segments": segments}
     scene = make_scene(**FLOOR | {"lights": [lamp], "objects": [FLAT, ball]})
-    direct = bind(scene, replace(scene.settings, width=width, height=300)).integrator.direct
+    tracer = bind(scene, replace(scene.settings, width=width, height=300))
+    direct = sparing(tracer).integrator.direct
     assert direct is not None
     assert (direct.spare is not None) == has
