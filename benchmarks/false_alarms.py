@@ -15,7 +15,7 @@ from benchmarks.figures import Figure
 from benchmarks.peer_cases import EFFECTS
 from course import load_scene, render
 from course.benchmarking.tables import Table, print_tables
-from course.engine.comparing.comparison import SIGNIFICANCE, compare
+from course.engine.comparing.significance import SIGNIFICANCE, compare
 from course.engine.core.types import Floats32
 from course.engine.functions.effects import PROJECT
 

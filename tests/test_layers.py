@@ -43,7 +43,7 @@ FLOORS = {
 
 DOOR = {
     "casters": {"choice"},
-    "comparing": {"comparison", "seen"},
+    "comparing": {"seen", "significance"},
     "core": {"accelerator", "film", "rays", "tiles", "types"},
     "formats": {
         *("pictures.display", "yaml.checking", "yaml.description", "yaml.document", "yaml.loading"),

@@ -15,8 +15,8 @@ from course.cli.outputs import check_outputs
 from course.cli.tables import Section, print_sections
 
 if TYPE_CHECKING:
-    from course.engine.comparing.comparison import Comparison, Finding
     from course.engine.comparing.seen import Seen
+    from course.engine.comparing.significance import Comparison, Finding
 
 DIFFERENT = 1
 TROUBLE = 2
@@ -29,7 +29,7 @@ TESTS = {
     "shapes": ("alike across", "alike down", "one sign"),
     "spot": ("spot",),
 }
-"""Names of tests, and the kinds of `course.engine.comparing.comparison.Finding` that each looks for."""
+"""Names of tests, and the kinds of `course.engine.comparing.significance.Finding` that each looks for."""
 
 FEW = 0.5
 """Share of pixels that differ, below which noise is not what makes the difference: it would make nearly all differ."""
@@ -80,8 +80,8 @@ def compare(
 def _compare(
     a: Path, b: Path, significance: float, difference: Path | None, json_path: Path | None
 ) -> Comparison:
-    from course.engine.comparing.comparison import compare as compare_pictures
     from course.engine.comparing.seen import seen
+    from course.engine.comparing.significance import compare as compare_pictures
     from course.engine.formats.pictures.reading import LINEAR, read_picture
 
     for source in (a, b):

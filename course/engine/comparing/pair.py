@@ -81,7 +81,7 @@ class Pair:
 
 
 def pair_of(a: Floats32, b: Floats32, coded: tuple[bool, bool]) -> Pair:
-    """As ``course.engine.comparing.comparison.compare`` takes them.
+    """As ``course.engine.comparing.significance.compare`` takes them.
 
     Raises CourseError: the pictures differ in size, or too little of them is left to compare.
     """

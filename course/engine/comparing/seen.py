@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.comparing.comparison import SIGNS, SPOT, Comparison, Finding
 from course.engine.comparing.explanations import direction, likenesses, movement, of_channels, where
 from course.engine.comparing.fields import COLOURS
 from course.engine.comparing.noise import noise_of
+from course.engine.comparing.significance import SIGNS, SPOT, Comparison, Finding
 from course.engine.comparing.windows import Window
 from course.engine.core.types import Floats64
 

@@ -24,7 +24,7 @@ from course.engine.loops.packets import packets_of
 from course.engine.scene.building.cameras import compile_camera
 from course.engine.scene.building.light_power import power
 from course.engine.scene.finding_light import reached, shining
-from course.engine.scene.lamp_points import AROUND
+from course.engine.scene.lamp_points import AROUND, is_known
 from course.engine.scene.scene import Scene
 from course.engine.scene.unlit import LIKELY, hidden, locked_in, solids_around, turned_from
 from course.engine.terms.world import FullWorld
@@ -79,6 +79,8 @@ def why_dark(scene: Scene, packets: bool = False) -> str:
     # What moves, and the student's hierarchy, would call the student's functions.
     if reason or not isinstance(world.surface.accelerator, StaticAccelerator):
         return reason
+    if not all(map(is_known, world.lights)):
+        return ""
     film = scene.settings
     camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)
     met = partial(_met, world, packets)

@@ -29,6 +29,12 @@ AROUND = np.ascontiguousarray((_AROUND / np.linalg.norm(_AROUND, axis=1)[:, None
 """Directions all around, to the faces, edges and corners of a cube, (3, 26)."""
 
 
+def is_known(light: Light) -> bool:
+    """Whether it is said here where a light is; of a scene with another, nothing is told."""
+    kinds = PointLight | RectangleLight | MeshLight | DirectionalLight | SphereLight
+    return isinstance(light, kinds | VisibleSphereLight)
+
+
 def points_of(light: Light) -> Floats32:
     """Points (3, k) that span a light."""
     if isinstance(light, PointLight):
@@ -53,8 +59,8 @@ def _ways(light: Light, points: Floats32) -> Floats32:
 
 
 def cone_of(light: Light) -> tuple[Floats32, float] | None:
-    """Axis and outer angle of a spot light, whose class only scenes with one import; None of other lights."""
-    return (light.axis, light.outer) if hasattr(light, "outer") else None  # type: ignore[attr-defined]
+    """Axis and outer angle of the cone that a light says it lights, ``lit_cone``; None if it says none."""
+    return getattr(light, "lit_cone", None)
 
 
 def shines_at(light: Light, points: Floats32) -> Mask:

@@ -11,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from course.base.errors import CourseError
-from course.engine.comparing.comparison import SPOT, Comparison, compare
 from course.engine.comparing.fields import COLOURS
 from course.engine.comparing.pair import FLOAT_STEP, HALF_STEP
+from course.engine.comparing.significance import SPOT, Comparison, compare
 from course.engine.comparing.windows import Grid, Window
 from course.engine.formats.pictures.display import linear_to_srgb8, srgb_to_linear
 

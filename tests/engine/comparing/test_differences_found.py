@@ -11,8 +11,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from course.engine.comparing.comparison import SIGNIFICANCE, Comparison, compare
 from course.engine.comparing.seen import seen
+from course.engine.comparing.significance import SIGNIFICANCE, Comparison, compare
 from course.engine.comparing.windows import Window
 
 Array = NDArray[np.float64]

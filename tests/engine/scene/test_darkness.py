@@ -1,6 +1,7 @@
 """Pictures that are likely to be black: named with their reason, black indeed, and nothing else is."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -284,3 +285,16 @@ def test_no_function_of_a_student_is_called(make_scene: MakeScene) -> None:
     before = set(scene.effects.imported)
     assert why_dark(scene)
     assert set(scene.effects.imported) == before
+
+
+class Other:
+    """A light of a type that nothing here knows."""
+
+    name, width, color = "light 0", 0, (1.0, 1.0, 1.0)
+
+
+def test_of_a_light_of_another_type_nothing_is_told(make_scene: MakeScene) -> None:
+    scene = make_scene(objects=[BOX], lights=[POINT], camera=INSIDE)
+    assert "stands inside wall" in why_dark(scene)
+    world: Any = replace(scene.compiled.world, lights=(Other(),))  # type: ignore[arg-type]
+    assert why_dark(replace(scene, compiled=replace(scene.compiled, world=world))) == ""

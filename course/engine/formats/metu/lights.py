@@ -17,6 +17,7 @@ from course.engine.core.types import Floats64
 from course.engine.formats.metu.element import MetuElement
 from course.engine.formats.metu.transformations import matrix_of, point
 from course.engine.formats.metu.transformations import normal as transformed_normal
+from course.engine.formats.pictures.reading import LINEAR
 from course.engine.formats.yaml.document import show
 from course.engine.formats.yaml.suggestions import suggest
 
@@ -79,9 +80,9 @@ def read_environment(
     image = images[name]
     file = " ".join(image.words())
     path = folder / file.replace("\\", "/")
-    if path.suffix.lower() not in (".exr", ".hdr"):
+    if path.suffix.lower() not in LINEAR:
         raise image.unexpected(
-            "a picture of radiance, .exr or .hdr, for a SphericalDirectionalLight"
+            f"a picture of radiance, {' or '.join(LINEAR)}, for a SphericalDirectionalLight"
         )
     if not os.path.exists(path):  # noqa: PTH110
         raise image.error(f"names {show(file)}: no such file in {folder.resolve()}")

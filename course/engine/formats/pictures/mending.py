@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from course.base.errors import SceneError
-from course.base.inputs import shown
+from course.base.inputs import InputLimit, shown
 from course.engine.core.types import Floats32
 
 HALF: Final = 65504.0
@@ -34,6 +34,12 @@ class ReadPicture:
     pixels: Floats32
     notes: list[str] = field(default_factory=list)
     white: float = np.inf
+
+
+def check_size(width: int, height: int, pixels: InputLimit) -> None:
+    """Raise ValueError for a picture of more pixels than are allowed, before they are read."""
+    if width * height > pixels.most:
+        raise ValueError(f"{width} x {height} are more than {pixels.most:,} pixels{pixels.remedy}")
 
 
 def mend(found: ReadPicture, path: Path) -> list[str]:

@@ -19,7 +19,7 @@ from course.engine.core.types import Floats32
 from course.engine.formats.pictures.alpha import see_through
 from course.engine.formats.pictures.icc import in_srgb, is_srgb
 from course.engine.formats.pictures.layers import choose
-from course.engine.formats.pictures.mending import ReadPicture, mend, parts_of, strips
+from course.engine.formats.pictures.mending import ReadPicture, check_size, mend, parts_of, strips
 from course.engine.formats.pictures.placing import (
     in_display_window,
     in_other_colours,
@@ -97,16 +97,11 @@ def read_picture(
     return found.pixels
 
 
-def _check_size(width: int, height: int, pixels: InputLimit) -> None:
-    if width * height > pixels.most:
-        raise ValueError(f"{width} x {height} are more than {pixels.most:,} pixels{pixels.remedy}")
-
-
 def _read_coded(stream: BinaryIO, path: Path, pixels: InputLimit, codes: bool) -> ReadPicture:
     notes: list[str] = []
     # Pillow warns of what it can read all the same, such as a damaged date or 90 million pixels.
     with warnings.catch_warnings(action="ignore"), _opened(stream) as image:
-        _check_size(image.width, image.height, pixels)
+        check_size(image.width, image.height, pixels)
         if image.mode in ("I", "F"):
             raise ValueError("its values have 32 bits; save it with 8 or 16, or as EXR")
         if image.format in FRAMES and (frames := getattr(image, "n_frames", 1)) > 1:
@@ -227,10 +222,10 @@ def _read_linear(
     stream.seek(0)
     header = radiance_header(stream)
     file, spec = _open_linear(path)
-    _check_size(spec.width, spec.height, most)
+    check_size(spec.width, spec.height, most)
     chosen, spec, notes = choose(file, layer)
-    _check_size(spec.width, spec.height, most)
-    _check_size(spec.full_width, spec.full_height, most)
+    check_size(spec.width, spec.height, most)
+    check_size(spec.full_width, spec.full_height, most)
     _check_linear(spec, header.turned)
     first, last = min(chosen.channels), max(chosen.channels) + 1
     pixels = file.read_image(chosen.part, 0, first, last, "float")
@@ -297,4 +292,7 @@ LINEAR: Final[dict[str, Callable[[BinaryIO, Path, InputLimit, bool, str | None],
     ".exr": _read_linear,
     ".hdr": _read_linear,
 }
-"""What reads the formats that hold radiance, up to a scale, by suffix; arguments as ``read_picture`` has them."""
+"""What reads the formats that hold radiance, up to a scale, by suffix.
+
+Arguments are the open file, its path, the most pixels, and ``codes`` and ``layer`` as ``read_picture`` has them.
+"""

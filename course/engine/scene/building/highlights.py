@@ -17,7 +17,7 @@ Described = Mapping[str, MaterialDescription]
 def plain_highlights(materials: Described, count: int) -> Mask | None:
     """(count,) bool, materials whose highlights lack the cosine; None where there are none."""
     return _those(
-        materials, count, lambda each: _shines(each) and each.highlight.startswith("plain")
+        materials, count, lambda each: _shines(each) and each.highlight in ("plain", "plain_phong")
     )
 
 
@@ -31,7 +31,7 @@ def _phong(materials: Described, count: int) -> Highlight | None:
     mirrored = _those(
         materials,
         count,
-        lambda each: _shines(each) and each.highlight.endswith("phong") and each.facets is None,
+        lambda each: _shines(each) and each.highlight in ("phong", "plain_phong"),
     )
     return None if mirrored is None else PhongHighlights(mirrored)
 

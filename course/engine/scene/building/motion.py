@@ -96,10 +96,10 @@ def movers(
         if shutter.moves(thing.motion):
             found.append((("objects", number, "motion"), True))
     for number, light in enumerate(scene.lights):
-        # If an object is a light, it is the object that moves.
-        if isinstance(light, d.AmbientLight | d.DirectionalLight | d.ObjectLight):
+        # If an object is a light, it is the object that moves; other lights without a place don't move either.
+        if not hasattr(light, "motion"):
             continue
-        surface = not isinstance(light, d.PointLight) and light.radiance is not None
+        surface = getattr(light, "radiance", None) is not None
         surface = surface and not (isinstance(light, d.RectangleLight) and not light.visible)
         if shutter.moves(light.motion) and (surface or not why_dark(light, materials)):
             found.append((("lights", number, "motion"), surface))
@@ -114,7 +114,7 @@ def check_sweeps(loaded: Loaded, frame: Frame, shutter: Shutter) -> None:
     moved: list[tuple[tuple[str | int, ...], d.MotionDescription]] = [
         (("lights", number), light.motion)
         for number, light in enumerate(lights)
-        if not isinstance(light, d.AmbientLight | d.DirectionalLight | d.ObjectLight)
+        if hasattr(light, "motion")
     ]
     for path, motion in [(("camera",), camera.motion), *moved]:
         in_reach(

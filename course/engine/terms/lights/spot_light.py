@@ -30,6 +30,11 @@ class SpotLight(PointLight):
     inner: float
     outer: float
 
+    @property
+    def lit_cone(self) -> tuple[Floats32, float]:
+        """Axis and outer angle [rad] of all that it lights."""
+        return self.axis, self.outer
+
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         sample = towards_in_numpy(self.position[:, None], points)

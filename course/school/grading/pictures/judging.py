@@ -13,8 +13,8 @@ import numpy as np
 from scipy.special import stdtrit
 
 from course.base.errors import CourseError
-from course.engine.comparing.comparison import SIGNIFICANCE, compare
 from course.engine.comparing.seen import seen
+from course.engine.comparing.significance import SIGNIFICANCE, compare
 from course.engine.formats.pictures.display import linear_to_srgb8
 from course.school.grading.checks.check import Array, Failure
 
