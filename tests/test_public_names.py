@@ -1,8 +1,10 @@
 """What `from course import ...` gives, and what it costs."""
 
+import ast
 import subprocess
 import sys
 from importlib.metadata import version
+from pathlib import Path
 
 import pytest
 
@@ -52,3 +54,18 @@ def test_the_package_costs_nothing_until_it_is_used() -> None:
 )
 def test_render_is_a_function_whatever_was_imported_before(first: str) -> None:
     in_a_new_process(f"{first}\nfrom course import load_scene, render\nassert callable(render)")
+
+
+DESCRIBED = "engine/formats/yaml/description.py"
+"""Its classes are named for what they describe, and always written as ``d.PointLight``."""
+
+
+def test_a_public_class_has_its_name_for_itself() -> None:
+    root = Path(course.__file__).parent
+    places: dict[str, list[str]] = {}
+    for path in root.rglob("*.py"):
+        place = path.relative_to(root).as_posix()
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ClassDef) and node.name[0] != "_" and place != DESCRIBED:
+                places.setdefault(node.name, []).append(place)
+    assert {name: where for name, where in places.items() if len(where) > 1} == {}

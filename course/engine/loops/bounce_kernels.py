@@ -58,7 +58,7 @@ _LEAST = np.float32(1e-20)
 _Y, _Z = WIDTH, 2 * WIDTH
 
 
-class Scattering(NamedTuple):
+class FusedScattering(NamedTuple):
     """What mirrors and refracts; see ``course.engine.core.scatter.Scatter``.
 
     Attributes

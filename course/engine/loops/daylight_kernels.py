@@ -59,7 +59,7 @@ class Product(NamedTuple):
     texel_columns_guide: Numbers
 
 
-class Sky(NamedTuple):
+class FusedSky(NamedTuple):
     """A cube map that lights surfaces.
 
     Attributes

@@ -48,7 +48,7 @@ from course.engine.terms.plan import BOUNCE, CHOICE, same_fields
 from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.absorption import Absorption
 from course.engine.terms.shafts.cells import Cells
-from course.engine.terms.shafts.stage import MOST_LIGHTS, REASONS, Tables
+from course.engine.terms.shafts.stage import MOST_LIGHTS, REASONS, ShaftTables
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
@@ -60,7 +60,7 @@ _NO_CELLS = Cells(
     *(_NO_OWNERS, np.empty((0, 3)), np.empty((0, 3)), np.empty((0, 4)), np.empty((0, 2))),
     *(_NO_PLACES, _NO_PLACES, _NOWHERE, _NOWHERE, _NOWHERE),
 )
-_NO_SHAFTS = shaft_kernels.Shafts(
+_NO_SHAFTS = shaft_kernels.FusedShafts(
     *(*_NO_CELLS, _NO_ROWS, _NO_BOXES, _NONE, np.empty(0, np.int32), np.empty(0, np.int32)),
     *(np.empty((0, 6), np.float32), _NO_OWNERS, _NO_PLACES, _NO_PLACES),
     *(np.empty((0, 15)), np.empty((0, 0), np.uint64), np.uint64(0), False),
@@ -199,7 +199,7 @@ def _parameter(lobe: Lobe) -> float:
 
 def _scattering(
     integrator: Integrator, dimensions: Dimensions, tables: SceneTables, narrow: int
-) -> bounce_kernels.Scattering:
+) -> bounce_kernels.FusedScattering:
     scatter = integrator.scatter
     lobes = scatter.gloss.lobes if scatter is not None and scatter.gloss is not None else ()
     first, worth = np.empty(0, np.int32), np.empty(0, np.bool_)
@@ -209,7 +209,7 @@ def _scattering(
     outside = np.empty(0, np.int16)
     if scatter is not None and scatter.outside is not None:
         outside = scatter.outside.astype(np.int16)
-    return bounce_kernels.Scattering(
+    return bounce_kernels.FusedScattering(
         mirror=_NO_COLUMNS if scatter is None else scatter.mirror.rows,
         refraction_index=_NONE if scatter is None or scatter.index is None else scatter.index.rows,
         outside=outside,
@@ -225,15 +225,15 @@ def _scattering(
     )
 
 
-def _sky(direct: DirectLight | None, dimensions: Dimensions) -> daylight_kernels.Sky:
+def _sky(direct: DirectLight | None, dimensions: Dimensions) -> daylight_kernels.FusedSky:
     sky: Any = None if direct is None else direct.sky
     if sky is None:
         edges: Any = [np.zeros((1, 2), np.float32), np.zeros((1, 1), np.int32)] * 4
         product = daylight_kernels.Product(1, 1, np.zeros((6, 9), np.float32), *edges)
         nothing = _NO_MASK.ravel()
-        return daylight_kernels.Sky(nothing, nothing, _NO_FACES, False, 0, product)
+        return daylight_kernels.FusedSky(nothing, nothing, _NO_FACES, False, 0, product)
     environment = sky.environment
-    return daylight_kernels.Sky(
+    return daylight_kernels.FusedSky(
         np.ascontiguousarray(sky.diffuses),
         np.ascontiguousarray(sky.refracts),
         np.ascontiguousarray(environment.faces),
@@ -252,10 +252,10 @@ def _surroundings(integrator: Integrator) -> fused_kernels.Surroundings:
     return fused_kernels.Surroundings(color, faces, seamless, depth)
 
 
-def _scene(integrator: Integrator, tables: SceneTables) -> fused_kernels.Scene:
+def _scene(integrator: Integrator, tables: SceneTables) -> fused_kernels.FusedScene:
     triangles = integrator.surface.triangles
     normals, bulge = triangles.corner_normals, triangles.bulge
-    return fused_kernels.Scene(
+    return fused_kernels.FusedScene(
         *(tables.scenes, tables.blockers, tables.velocity, tables.boxes, tables.first),
         *(triangles.planes, triangles.edges, triangles.inset),
         _NO_ROWS if normals is None else normals,
@@ -266,11 +266,11 @@ def _scene(integrator: Integrator, tables: SceneTables) -> fused_kernels.Scene:
     )
 
 
-def _shafts(integrator: Integrator) -> shaft_kernels.Shafts:
+def _shafts(integrator: Integrator) -> shaft_kernels.FusedShafts:
     """What is known of shafts; without a row for any light where there are none."""
     direct = integrator.direct
     shafts: Any = None if direct is None else direct.spare
-    tables: Tables | None = None if shafts is None else shafts.made
+    tables: ShaftTables | None = None if shafts is None else shafts.made
     if direct is None or tables is None:
         return _NO_SHAFTS
     lamps = [
@@ -279,13 +279,13 @@ def _shafts(integrator: Integrator) -> shaft_kernels.Shafts:
     ]
     slots = [tables.slots.get(light.name, -1) for light in direct.lights]
     moves = integrator.motion is not None
-    return shaft_kernels.Shafts(
+    return shaft_kernels.FusedShafts(
         *(*tables.cells, *tables.boxes, np.array(slots, np.int64)),
         *(np.array(lamps), tables.known, np.uint64(65 - tables.known.shape[1].bit_length()), moves),
     )
 
 
-def _paths(integrator: Integrator, dimensions: Dimensions) -> path_kernels.Paths | None:
+def _paths(integrator: Integrator, dimensions: Dimensions) -> path_kernels.FusedPaths | None:
     """How paths go on; None for rays that follow every way."""
     if not isinstance(integrator, PathIntegrator):
         return None
@@ -295,7 +295,7 @@ def _paths(integrator: Integrator, dimensions: Dimensions) -> path_kernels.Paths
         dimensions.first(name, 0) // 2 if name in dimensions.width else 0
         for name, _ in (BOUNCE, CHOICE)
     ]
-    return path_kernels.Paths(
+    return path_kernels.FusedPaths(
         bounce.diffuse.rows if diffuses else np.zeros_like(bounce.diffuse.rows),
         bounce.optical if bounce.scatter is not None else np.zeros_like(bounce.optical),
         # Without a diffuse surface every path with light goes on.
@@ -443,7 +443,7 @@ class FusedTracer(Tracer):
         costs = self.costs(block.size) if self.costs is not None and parts > 1 else None
         x, y = tile.corners()
         weighted = self.reconstruction.sigma is not None
-        film = fused_kernels.Film(
+        film = fused_kernels.FusedFilm(
             np.empty((3, block.size), np.float32),
             np.empty((2, block.size if weighted else 0), np.float32),
             _NONE if costs is None else costs.row,

@@ -94,7 +94,7 @@ _Y, _Z = WIDTH, 2 * WIDTH
 _EDGE_2 = 3 * WIDTH
 
 
-class Scene(NamedTuple):
+class FusedScene(NamedTuple):
     """All triangles; see ``course.engine.core.triangles``, ``accelerator.SceneTables`` and ``convex.ConvexObjects``.
 
     Attributes
@@ -167,7 +167,7 @@ class Depths(NamedTuple):
     seen: int
 
 
-class Film(NamedTuple):
+class FusedFilm(NamedTuple):
     """What is filled.
 
     Attributes

@@ -45,7 +45,7 @@ _Y, _Z = WIDTH, 2 * WIDTH
 _ENDS = -1
 
 
-class Paths(NamedTuple):
+class FusedPaths(NamedTuple):
     """How paths go on.
 
     Attributes

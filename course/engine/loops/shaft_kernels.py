@@ -69,7 +69,7 @@ PILE = 4 * BRANCH * _DEEPEST
 """Boxes that wait, at most, and how many have been met at each level."""
 
 
-class Shafts(NamedTuple):
+class FusedShafts(NamedTuple):
     """``Tables``, array by array.
 
     Attributes

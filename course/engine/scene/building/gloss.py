@@ -42,7 +42,7 @@ def calls_module(gloss: d.Gloss | None) -> bool:
 
 
 @dataclass(frozen=True)
-class Scattering:
+class CompiledScattering:
     """What mirrors and refracts otherwise than a smooth surface; see ``FullWorld``."""
 
     lobes: tuple[Lobe, ...]
@@ -54,13 +54,13 @@ def compile_scattering(
     materials: Sequence[tuple[str, d.MaterialDescription]],
     bound: Bound,
     integrator: d.IntegratorDescription,
-) -> Scattering:
+) -> CompiledScattering:
     """Glossy lobes, rough glass and microfacets of the materials, which have their names before them."""
     mirrors = [(name, reflecting(material)) for name, material in materials]
     lobes = compile_lobes(mirrors, bound, integrator)
     microfacets = compile_microfacets(materials, bound, integrator)
     rough = compile_rough_glass(materials, lobes, bound, integrator)
-    return Scattering(lobes, rough, microfacets)
+    return CompiledScattering(lobes, rough, microfacets)
 
 
 def compile_lobes(

@@ -14,7 +14,7 @@ from course.engine.terms.lights.visible_sphere import VisibleSphereLight
 from course.engine.terms.shafts.cells import ROOM
 
 
-class Lamp(NamedTuple):
+class LampRegion(NamedTuple):
     """A ball, or a box with any three edges, or both added up, in which all points of a light lie.
 
     Attributes
@@ -33,10 +33,10 @@ class Lamp(NamedTuple):
     far: bool
 
 
-def lamp_of(light: Light) -> Lamp | None:
+def lamp_of(light: Light) -> LampRegion | None:
     """The light's points; None for a light of another kind, or one to which rays go on behind it."""
     if type(light) is DirectionalLight:
-        return Lamp(light.to_light.astype(np.float64), np.zeros((3, 3)), 0.0, 1.0, far=True)
+        return LampRegion(light.to_light.astype(np.float64), np.zeros((3, 3)), 0.0, 1.0, far=True)
     lamp = _near(light)
     if lamp is None or light.limit >= TO_THE_LIGHT:
         return None
@@ -49,7 +49,7 @@ def lamp_of(light: Light) -> Lamp | None:
     if getattr(light, "normal", None) is not None:
         # Rays end above flat lamps.
         room += float(RAISED)
-    return Lamp(middle, half, radius + room, light.limit, far=False)
+    return LampRegion(middle, half, radius + room, light.limit, far=False)
 
 
 def _near(light: Light) -> tuple[Floats64, Floats64, float] | None:
@@ -72,7 +72,7 @@ def _near(light: Light) -> tuple[Floats64, Floats64, float] | None:
     return None
 
 
-def holds(lamp: Lamp, places: Floats32) -> Mask:
+def holds(lamp: LampRegion, places: Floats32) -> Mask:
     """Which points (3, n) lie where those of the lamp may; a student's function may put them anywhere."""
     x = places - lamp.middle.astype(np.float32)[:, None]
     if not lamp.half.any():

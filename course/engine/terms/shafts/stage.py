@@ -28,7 +28,7 @@ from course.engine.core.vectors import dot, repeated
 from course.engine.terms.lights.own_lamp import LampAccelerator
 from course.engine.terms.shafts.boxes import Boxes, boxes_of
 from course.engine.terms.shafts.cells import OUTSIDE, Cells, Keys, cells_of, keys_of
-from course.engine.terms.shafts.lamps import Lamp, holds, lamp_of
+from course.engine.terms.shafts.lamps import LampRegion, holds, lamp_of
 from course.engine.terms.shafts.walk import CLEAR, CUT_OFF, MIXED, shaft_states
 from course.engine.terms.surfaces.swept_movers import SweptMovers
 
@@ -66,7 +66,7 @@ _ROOM_IN_TABLE, _SMALLEST, _LARGEST = 8, 1 << 12, 1 << 20
 """Places in a table, by the cells that a picture may show; at least; and at most of all lights together."""
 
 
-class Tables(NamedTuple):
+class ShaftTables(NamedTuple):
     """What is known of a scene.
 
     Attributes
@@ -80,7 +80,7 @@ class Tables(NamedTuple):
     cells: Cells
     boxes: Boxes
     slots: dict[str, int]
-    lamps: list[Lamp]
+    lamps: list[LampRegion]
     known: NDArray[np.uint64]
 
 
@@ -104,13 +104,13 @@ class Shafts:
     lock: Any = field(default_factory=Lock, repr=False)
 
     @property
-    def made(self) -> Tables | None:
+    def made(self) -> ShaftTables | None:
         """The tables, made by the first thread that asks."""
         with self.lock:
             return self.tables
 
     @cached_property
-    def tables(self) -> Tables | None:
+    def tables(self) -> ShaftTables | None:
         """Made when they are first asked for; None where no light or no triangle has shafts."""
         triangles, accelerator = self.surface.triangles, self.surface.accelerator
         found = {light.name: lamp_of(light) for light in self.lights}
@@ -123,7 +123,7 @@ class Shafts:
         cells = cells_of(boxes, triangles, len(static.triangles), self.camera, self.pixels)
         slots = {name: number for number, name in enumerate(lamps)}
         known = np.zeros((len(lamps), self.places), np.uint64)
-        return Tables(cells, boxes, slots, list(lamps.values()), known)
+        return ShaftTables(cells, boxes, slots, list(lamps.values()), known)
 
     def __call__(
         self,
@@ -204,7 +204,7 @@ class Shafts:
 
     def _look_up(
         self,
-        tables: Tables,
+        tables: ShaftTables,
         row: int,
         key: Keys,
         rays: tuple[Indices, Indices],

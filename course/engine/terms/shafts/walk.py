@@ -17,7 +17,7 @@ from course.engine.core.types import Floats64, Indices, Mask
 from course.engine.core.vectors import cross
 from course.engine.terms.shafts.boxes import BRANCH, LEAF, Boxes
 from course.engine.terms.shafts.cells import Cells, Keys, place_of
-from course.engine.terms.shafts.lamps import Lamp
+from course.engine.terms.shafts.lamps import LampRegion
 
 CLEAR, MIXED, CUT_OFF = 1, 2, 3
 """No way is blocked; some may be; all are."""
@@ -50,7 +50,7 @@ TOGETHER = 2048
 """Cells whose shafts are looked at together: their arrays stay in the second-level cache."""
 
 
-def shaft_states(cells: Cells, boxes: Boxes, lamp: Lamp, keys: Keys) -> NDArray[np.int8]:
+def shaft_states(cells: Cells, boxes: Boxes, lamp: LampRegion, keys: Keys) -> NDArray[np.int8]:
     """CLEAR, MIXED or CUT_OFF for the shafts of cells (n,) to a light."""
     states = np.empty(len(keys), np.int8)
     for first in range(0, len(keys), TOGETHER):
@@ -65,7 +65,7 @@ def along(a: Floats64, b: Floats64) -> Floats64:
     return product
 
 
-def reach_of(lamp: Lamp, normal: Floats64) -> Floats64:
+def reach_of(lamp: LampRegion, normal: Floats64) -> Floats64:
     """How far a lamp reaches from its middle along unit vectors (3, n)."""
     a, b, c = (np.abs(along(edge, normal)) for edge in lamp.half)
     reach: Floats64 = a + b + c + lamp.radius
@@ -75,7 +75,7 @@ def reach_of(lamp: Lamp, normal: Floats64) -> Floats64:
 class _Shafts:
     """The shafts of n cells, whose ends are boxes around ``begin`` and shapes around ``end``, (3, n) each."""
 
-    def __init__(self, cells: Cells, boxes: Boxes, lamp: Lamp, keys: Keys) -> None:
+    def __init__(self, cells: Cells, boxes: Boxes, lamp: LampRegion, keys: Keys) -> None:
         owner, back, self.begin, self.half = place_of(cells, keys)
         self.first, self.last = cells.first[owner], cells.last[owner]
         around = boxes.boxes[-1].astype(np.float64)
