@@ -120,8 +120,8 @@ def test_the_records_of_the_accuracy_page() -> None:
 
 def test_the_tolerances_that_are_named_are_the_tests_own() -> None:
     """The sentences name test files; what they hold to stands there."""
-    tests = PROJECT / "tests"
-    paths = (tests / "transport" / "test_path_tracing.py").read_text(encoding="utf-8")
+    tests = PROJECT / "tests" / "engine"
+    paths = (tests / "terms" / "paths" / "test_path_tracing.py").read_text(encoding="utf-8")
     accuracy(r"requires this of all pixels to one part in N, for")
     assert "np.allclose(render(scene).linear, 1 / (1 - reflectance), rtol=1e-5)" in paths
     solving = (tests / "radiosity" / "test_solving.py").read_text(encoding="utf-8")
