@@ -23,8 +23,11 @@ from course.engine.render.render import render
 from course.engine.scene.building.world import compile_scene
 from course.engine.scene.scene import Scene
 
-RENDERING = ("base", "engine")
-"""The packages of the course that have a say in a picture."""
+RENDERING = (
+    *("casters", "core", "formats", "functions", "loops", "render", "scene", "shapes"),
+    "terms",
+)
+"""The rooms of the engine that have a say in a picture."""
 
 LIBRARIES = ("numpy", "pillow", "mapbox_earcut")
 
@@ -38,7 +41,7 @@ def engine_hash(effects: Path) -> str:
     digest = sha256(f"{software()}\n".encode())
     for name in LIBRARIES:
         digest.update(f"{name} {version(name)}\n".encode())
-    files = [path for name in RENDERING for path in (PACKAGE / name).rglob("*.py")]
+    files = [path for name in RENDERING for path in (PACKAGE / "engine" / name).rglob("*.py")]
     for path in [*sorted(files), *sorted(effects.glob("*.py"))]:
         digest.update(f"{path.parent.name}/{path.name}\n".encode())
         digest.update(sha256(path.read_bytes()).digest())

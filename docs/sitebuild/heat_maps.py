@@ -18,7 +18,7 @@ from course.engine.formats.pictures.files import save
 from course.engine.render.box_tests import box_tests
 from sitebuild import pictures, webp
 from sitebuild.place import Place
-from sitebuild.shots import image
+from sitebuild.shots import image, slider, tag
 
 COUNTED = {"adaptive_sampling": "samples a pixel", "bounding_volumes": "boxes a ray"}
 """What the heat map of a scene counts."""
@@ -40,19 +40,11 @@ def heat_map(place: Place, name: str, words: str = "") -> str:
     else:
         file, ends = kept(name, planned)
     address = place.address(f"_pictures/{name}-heat.webp", file)
-    width, height = planned.size
     alternative = f"{planned.title}: {counted}, few are dark and many are light"
-    heat = f'<img src="{address}" alt="{alternative}" width="{width}" height="{height}" loading="lazy">'
+    heat = tag(address, alternative, planned.size)
     line = f"course render scenes/{name}.yaml --heat-map heat.png"
-    return f"""<figure class="before-after">
-<div class="pair">
-<div class="before">{shown}<span>picture</span></div>
-<div class="after">{heat}<span>{counted}</span></div>
-</div>
-{_scale(ends, counted)}
-<figcaption>{escape(words)} <code>{line}</code></figcaption>
-</figure>
-"""
+    caption = f"{escape(words)} <code>{line}</code>"
+    return slider((shown, "picture"), (heat, counted), caption, f"{_scale(ends, counted)}\n")
 
 
 def counts(name: str) -> Indices:

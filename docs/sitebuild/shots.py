@@ -18,7 +18,7 @@ def picture(place: Place, name: str, words: str = "") -> str:
     if not beside.is_file():
         return f'<p class="wide">{image(place, planned, words)[0]}</p>\n'
     with Image.open(beside) as kept:
-        shown = _tag(place.address(f"_pictures/{planned.file}", beside), words, kept.size)
+        shown = tag(place.address(f"_pictures/{planned.file}", beside), words, kept.size)
     return f'<p class="wide large">{shown}</p>\n'
 
 
@@ -27,12 +27,32 @@ def before_after(place: Place, name: str, words: str = "") -> str:  # noqa: ARG0
     before, after = pictures.shot(f"before/{name}"), pictures.shot(name)
     left, _ = image(place, before, f"{after.title}: the scene without it")
     right, _ = image(place, after, f"{after.title}: the same scene with it")
-    return f"""<figure class="before-after">
+    caption = f"{escape(after.title)}: scenes/before/{name}.yaml and scenes/{name}.yaml"
+    return slider((left, "without"), (right, "with"), caption)
+
+
+def slider(
+    before: tuple[str, str],
+    after: tuple[str, str],
+    caption: str,
+    below: str = "",
+    large: bool = False,
+) -> str:
+    """Two pictures with a border that moves.
+
+    Parameters
+    ----------
+    before, after : the picture, as HTML, and the word on it
+    caption, below : HTML; what is below stands between pictures and caption
+    """
+    (left, one), (right, other) = before, after
+    kind = "before-after large" if large else "before-after"
+    return f"""<figure class="{kind}">
 <div class="pair">
-<div class="before">{left}<span>without</span></div>
-<div class="after">{right}<span>with</span></div>
+<div class="before">{left}<span>{one}</span></div>
+<div class="after">{right}<span>{other}</span></div>
 </div>
-<figcaption>{escape(after.title)}: scenes/before/{name}.yaml and scenes/{name}.yaml</figcaption>
+{below}<figcaption>{caption}</figcaption>
 </figure>
 """
 
@@ -101,10 +121,11 @@ def image(
     else:
         file, receipt = pictures.picture(planned)
     address = place.address(f"_pictures/{planned.file}", file)
-    return _tag(address, alternative or planned.title, planned.size), receipt
+    return tag(address, alternative or planned.title, planned.size), receipt
 
 
-def _tag(address: str, alternative: str, size: tuple[int, int]) -> str:
+def tag(address: str, alternative: str, size: tuple[int, int]) -> str:
+    """A picture of a size [pixels] as HTML."""
     return (
         f'<img src="{address}" alt="{escape(alternative)}"'
         f' width="{size[0]}" height="{size[1]}" loading="lazy">'

@@ -51,6 +51,14 @@ def test_the_samples_that_were_reached_are_told(mean: float, told: str) -> None:
     assert sections["samples"] == [("a pixel", told)]
 
 
+def test_shadow_rays_that_were_not_sent_are_told_with_their_share() -> None:
+    sent = RECEIPT | {"rays": {"camera": 9, "shadow": 30}, "spared": {"clear": 60, "cut off": 10}}
+    rows = dict(dict(tables.receipt_sections(sent))["not sent"])
+    assert rows["clear"].startswith("60% of the shadow rays")
+    assert rows["cut off"].startswith("10% of the shadow rays")
+    assert "not sent" not in dict(tables.receipt_sections(RECEIPT))
+
+
 def test_what_was_skipped_is_one_line() -> None:
     skipped = dict.fromkeys(("thin_lens", "motion_blur", "cube_map"), "nothing needs it")
     receipt = RECEIPT | {"effects": {"called": [], "skipped": skipped}}

@@ -17,6 +17,8 @@ from course.engine.core.tracer import Tracer
 from course.engine.core.types import Floats32, Words
 from course.engine.functions.contracts import contract
 from course.engine.functions.effects import Bound
+from course.engine.loops.fits import fits
+from course.engine.loops.library import available
 from course.engine.recording.recorder import Recorder
 from course.engine.recording.segments import Segment, segments_of
 from course.engine.recording.stages import RecordedDraws, RecordedEffects, recorded
@@ -144,7 +146,7 @@ def _recorded(
             own = own and not any(_draws(need.function) for need in bound.needs)
             trusted = scene.effects.trusted
             alone = own and (trusted or (quick and _independent(scene, plain, areas[0])))
-            tracer = recorded(plain, recorder)
+            tracer = recorded(plain, recorder, shafts=available() and fits(plain))
             scene.effects.recorder = recorder
             work = (
                 passes(tracer.settings, tracer.sampler) if whole else _work(tracer, areas[0], alone)

@@ -15,6 +15,7 @@ from course.engine.core.scatter import Boundary, Scatter
 from course.engine.core.tracer import Tracer
 from course.engine.core.types import Floats32, Indices, Numbers
 from course.engine.functions.effects import Effects
+from course.engine.functions.own import Watched
 from course.engine.recording.asking import Asking
 from course.engine.recording.recorder import ENVIRONMENT_LIGHT, Recorder
 from course.engine.terms.environments.sky import Sky
@@ -59,18 +60,15 @@ class RecordedEffects(Effects):
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """See ``Effects``."""
-        function = self._recorded.function(module, name)
 
-        def call(*arguments: Any) -> Any:
-            result = function(*arguments)
+        def note(arguments: tuple[Any, ...], result: Any) -> None:
             if self.recorder is not None:
                 self.recorder.called(f"{module}.{name}", arguments, result)
             elif self._building:
                 known = self.built.setdefault(f"{module}.{name}", [])
                 known += _some_numbers(result)[: max(MOST_RESULTS - len(known), 0)]
-            return result
 
-        return call
+        return Watched(self._recorded.function(module, name), note)
 
 
 def _some_numbers(result: Any) -> list[list[Any]]:
@@ -124,16 +122,16 @@ class RecordedDraws(Draws):
             self.recorder.ids_cast = path if which is None else path.take(which)
 
 
-def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
-    """The tracer with stages that tell the recorder what they do."""
+def recorded(tracer: Tracer, recorder: Recorder, shafts: bool = False) -> Tracer:
+    """The tracer with stages that tell the recorder what they do; with ``shafts``, what these would have told, too."""
     integrator = tracer.integrator
     changed: dict[str, Any] = {}
     if integrator.direct is not None:
         asking = Asking(integrator.surface.accelerator)
         recorder.asking = asking
         seen: dict[str, Any] = same_fields(integrator.surface) | {"accelerator": asking}
-        # All rays are sent, and what their shafts would have told is told beside.
-        direct = sparing(tracer).integrator.direct
+        # All rays are sent.
+        direct = sparing(tracer).integrator.direct if shafts else None
         recorder.shafts = None if direct is None else direct.spare
         seen = {"surface": type(integrator.surface)(**seen), "spare": None}
         if (sky := integrator.direct.sky) is not None:

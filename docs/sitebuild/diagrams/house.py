@@ -2,14 +2,15 @@
 
 import ast
 from collections.abc import Iterator
+from itertools import permutations, product
 from pathlib import Path
 
 from course.engine.functions.effects import PACKAGE
 from sitebuild.diagrams.canvas import Canvas
 from sitebuild.diagrams.figure import Figure, Panel
 
-WIDTH, FLOOR, ROOM = 350, 46, 24
-"""Of the drawing; between floors; of a room's height: in units of the viewBox."""
+WIDTH, FLOOR, ROOM, MARGIN = 350, 46, 24, 14
+"""Of the drawing; between floors; of a room's height; and between it and an arrow: in units of the viewBox."""
 
 Uses = dict[str, set[str]]
 
@@ -69,31 +70,65 @@ def direct(rooms: Uses) -> Iterator[tuple[str, str]]:
                 yield room, other
 
 
-def draw(canvas: Canvas, rooms: Uses, bottom: float, tall: dict[str, float], inset: float) -> float:
-    """Draw the floors of a wing, and return where they end; ``tall`` has the heights of rooms that hold rooms."""
-    places: dict[str, tuple[float, float, float, float]] = {}
+Place = tuple[float, float, float, float]
+"""Left, upper, right and lower edge of a room."""
+
+
+def wide(room: str) -> float:
+    """Width of a room, as its name asks for."""
+    return 14 + 7.2 * len(room)
+
+
+def arranged(rooms: Uses) -> dict[str, float]:
+    """Which share of the floor's width lies to the left of each room's middle, so that arrows cross few rooms."""
+    levels = floors(rooms)
+    arrows = sorted(direct(rooms))
+    height = {room: level for level, floor in enumerate(levels) for room in floor}
+
+    def badness(middle: dict[str, float]) -> tuple[int, float, float]:
+        crossed, slanted = 0, 0.0
+        for upper, lower in arrows:
+            slanted += abs(middle[upper] - middle[lower])
+            for room, level in height.items():
+                share = (height[upper] - level) / (height[upper] - height[lower])
+                x = middle[upper] + share * (middle[lower] - middle[upper])
+                between = height[lower] < level < height[upper]
+                crossed += between and abs(x - middle[room]) * WIDTH < wide(room) / 2 + MARGIN
+        return crossed, slanted, abs(sum(middle.values()) - len(middle) / 2)
+
+    ways = (
+        [
+            dict(zip(floor, shares, strict=True))
+            for shares in permutations((0.22, 0.5, 0.78), len(floor))
+        ]
+        for floor in levels
+    )
+    together = (
+        {room: x for floor in chosen for room, x in floor.items()} for chosen in product(*ways)
+    )
+    return min(together, key=badness)
+
+
+def draw(canvas: Canvas, rooms: Uses, bottom: float, tall: dict[str, float]) -> None:
+    """Draw the floors of a wing; ``tall`` has the heights of rooms that hold rooms, and fill a floor."""
+    middle, places = arranged(rooms), dict[str, Place]()
     for floor in floors(rooms):
         height = max(tall.get(room, ROOM) for room in floor)
-        share = (WIDTH - 2 * inset) / len(floor)
-        for k, room in enumerate(floor):
-            # A wing has the floor's whole width, a room as much as its name asks for.
-            wide = share if room in tall else min(share - 12, 120)
-            x = inset + share * (k + 0.5)
-            places[room] = (x - wide / 2, bottom - height, x + wide / 2, bottom)
+        for room in floor:
+            x, half = middle[room] * WIDTH, wide(room) / 2
+            left, right = (6.0, WIDTH - 6.0) if room in tall else (x - half, x + half)
+            places[room] = left, bottom - height, right, bottom
         bottom -= height + FLOOR - ROOM
     for room, other in direct(rooms):
-        here, there = places[room], places[other]
-        from_x, to_x = (here[0] + here[2]) / 2, (there[0] + there[2]) / 2
-        if there[2] - there[0] > here[2] - here[0]:
-            to_x = from_x
-        elif here[2] - here[0] > there[2] - there[0]:
-            from_x = to_x
-        canvas.arrow((from_x, here[3]), (to_x, there[1]), "ink thin", head=5)
+        here, there = middle[room], middle[other]
+        start, end = (there if room in tall else here), (here if other in tall else there)
+        canvas.arrow(
+            (start * WIDTH, places[room][3]), (end * WIDTH, places[other][1]), "ink thin", head=5
+        )
     for room, (x0, y0, x1, y1) in places.items():
         canvas.rectangle((x0, y0), (x1, y1), "faint" if room in tall else "wash")
         at = (x0 + 6, y0 + 12) if room in tall else ((x0 + x1) / 2, (y0 + y1) / 2)
         canvas.label(at, f"{room}/", "e" if room in tall else "c", gap=0)
-    return bottom
 
 
 def rooms() -> Figure:
@@ -102,9 +137,9 @@ def rooms() -> Figure:
     tall = {"engine": len(floors(engine)) * FLOOR + 24.0}
     height = len(floors(house)) * FLOOR - ROOM + tall["engine"] + 12
     canvas = Canvas(WIDTH, height, (0, WIDTH, height, 0))
-    draw(canvas, house, height - 6, tall, 6)
+    draw(canvas, house, height - 6, tall)
     below = floors(house).index(["engine"]) * FLOOR
-    draw(canvas, engine, height - 6 - below - 14, {}, 20)
+    draw(canvas, engine, height - 6 - below - 14, {})
     listed = "; ".join(", ".join(floor) for floor in floors(engine))
     return Figure(
         "Rooms of the package. An arrow leads to what a room imports; an import that a longer way implies is left out.",

@@ -14,6 +14,7 @@ from click.testing import CliRunner, Result
 from course import load_scene, pixel
 from course.cli.main import commands
 from course.engine.functions.effects import PROJECT
+from course.engine.loops.library import available
 from course.engine.recording.story import Line, Story
 from tests.conftest import MakeScene
 
@@ -282,3 +283,24 @@ def test_each_hit_s_walk_down_the_light_tree_is_recorded() -> None:
     ]
     assert len(calls) == story.recording.asked["many_lights.tree_choice"] == 8
     assert all(0 < call.results["probability"] <= 1 for call in calls)
+
+
+@pytest.mark.parametrize("textured", [False, True])
+def test_shafts_are_told_of_scenes_alone_whose_loop_looks_at_them(
+    make_scene: MakeScene, textured: bool
+) -> None:
+    """A floor under a lamp; a texture is nothing that the loop knows."""
+    floor: dict[str, Any] = {"shape": "quad", "width": 9, "depth": 9, "material": "floor"}
+    material: dict[str, Any] = {"noise": {}} if textured else {}
+    scene = make_scene(
+        camera={"eye": [0, 4, 6], "look_at": [0, 0, 0]},
+        film={"width": 512, "height": 512},
+        sampler={"type": "sobol", "samples": 64},
+        materials={"floor": material},
+        objects=[floor],
+        lights=[{"type": "sphere", "center": [0, 5, 0], "radius": 0.5, "intensity": 100}],
+    )
+    told = " ".join(texts(pixel(scene, 256, 256).tree))
+    assert ("shafts: a render doesn't send 64 with nothing" in told) == (
+        available() and not textured
+    )

@@ -68,7 +68,8 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     things = read_things(loaded)
     shutter, meshes = things.shutter, things.meshes
     warn_of_glass(loaded, meshes)
-    extents = extents_of_objects(things.bounds, things.boxes)
+    boxes = things.boxes
+    extents = extents_of_objects(things.bounds, boxes)
     lamps = extents_of_lamps(loaded, shutter, extents, meshes)
     frame, small, cuts = frame_for(extents + lamps, len(meshes))
     check_sweeps(loaded, frame, shutter)
@@ -131,7 +132,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         ),
     )
     check_growth(loaded, columns.names, world)
-    if not warn_of_small(loaded, extents, things.boxes, frame):
+    if not warn_of_small(loaded, extents, boxes, frame):
         warn_of_unfinished(loaded, built.parts, small, built.pieces)
     largest = surface.triangles.largest_raised
     warn_of_gaps(loaded, extents, frame, meshes, [part.mesh for part in built.parts], largest)

@@ -28,8 +28,11 @@ class FullReflection(BlinnPhong):
     def arriving(self, hits: Hits, candidates: Candidates) -> Floats32:
         """See ``BlinnPhong``; less what highlights over the diffuse term reflect."""
         irradiance = candidates.irradiance
+        if not self.highlights:
+            return irradiance
+        ways, material = _ways(hits, candidates), candidates.of(hits.material)
         for model in self.highlights:
-            left = model.left(*_ways(hits, candidates), candidates.of(hits.material))
+            left = model.left(*ways, material)
             if left is not None:
                 irradiance = irradiance * left
         return irradiance
@@ -38,7 +41,8 @@ class FullReflection(BlinnPhong):
         """See ``BlinnPhong``."""
         highlight = super().highlight(hits, candidates)
         material = candidates.of(hits.material)
-        to_light, direction = _ways(hits, candidates)
+        if self.highlights:
+            to_light, direction = _ways(hits, candidates)
         for model in self.highlights:
             which = np.flatnonzero(model.materials.take(material))
             highlight[which] = candidates.irradiance.take(which) * model.factor(

@@ -48,7 +48,7 @@ MOST_LIGHTS, MOST_OBJECTS, MOST_TRIANGLES = 16, 2048, 1_000_000
 """Scenes with more of them have no shafts: these would take too long to make, or too much memory."""
 
 WORTH = 1_000_000
-"""Samples of a picture from which on shafts save more than the boxes around triangles take to be made."""
+"""Samples of a picture from which on it has shafts: fewer rays cost less than the boxes around triangles."""
 
 SAMPLES_A_TRIANGLE = 16
 """The same, by the number of triangles."""
