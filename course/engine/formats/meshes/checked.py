@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from course.base.errors import CourseWarning, GeometryError
 from course.engine.core.types import Floats64
+from course.engine.core.vectors import dot
 from course.engine.formats.meshes.parts import FilePart
 from course.engine.formats.meshes.smooth_normals import (
     angle_normals,
@@ -55,7 +56,8 @@ def checked(name: str, part: FilePart, weights: Weights) -> Mesh:
     stored = np.asarray(part.vertices).dtype
     precision = float(np.finfo(stored).eps) if stored.kind == "f" else 0.0
     if given.any():
-        out = normals[triangles].sum(axis=1)
+        first, second, third = (normals[corner] for corner in triangles.T)
+        out = first + second + third
         triangles = _outwards(name, vertices, triangles, out, precision)
     elif part.facets is not None:
         facets = unit(np.nan_to_num(np.array(part.facets, np.float64), posinf=0.0, neginf=0.0))
@@ -131,15 +133,16 @@ def _outwards(
     precision : a coordinate as the file holds it is right to so many times its distance from 0
     mostly : least share of triangles along whose ``out`` they lie, on either side; of fewer none is turned
     """
-    _, faces, lengths = edges_and_faces(vertices, triangles)
-    ahead = np.sum(faces * out, axis=1)
-    sizes = np.sqrt(np.sum(faces * faces, axis=1) * np.sum(out * out, axis=1))
-    along = np.abs(ahead) > ALONG * sizes
-    # A sliver that rounding alone gives an area looks nowhere.
-    far = np.abs(vertices[triangles]).max(axis=(1, 2), initial=0.0)
-    rounding = np.where(along, 0.0, 16 * precision * far / lengths)
-    wrong = ahead < -(SLIVER + rounding)
-    looking = sizes > SLIVER
+    wrong, along, looking = np.zeros((3, len(triangles)), bool)
+    for which, _, faces, lengths in edges_and_faces(vertices, triangles):
+        side = np.ascontiguousarray(out[which].T)
+        ahead = dot(faces, side)
+        sizes = np.sqrt(dot(faces, faces) * dot(side, side))
+        along[which], looking[which] = np.abs(ahead) > ALONG * sizes, sizes > SLIVER
+        # A sliver that rounding alone gives an area looks nowhere.
+        far = np.abs(vertices[triangles[which]]).max(axis=(1, 2))
+        rounding = np.where(along[which], 0.0, 16 * precision * far / lengths)
+        wrong[which] = ahead < -(SLIVER + rounding)
     if not wrong.any() or np.count_nonzero(along & looking) < mostly * np.count_nonzero(looking):
         return triangles
     warnings.warn(

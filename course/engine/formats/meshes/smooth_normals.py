@@ -6,10 +6,12 @@ normals too where these are within the crease angle, and stay a hard edge where 
 """
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
+from course.engine.core.vectors import cross, dot
 from course.engine.formats.meshes.parts import same
 
 CREASE_DEGREES = 40.0
@@ -18,6 +20,9 @@ CREASE_DEGREES = 40.0
 # Work at a place grows with the square of the vertices there. The tip of a fan finer than this is
 # left as it is: facets so narrow need no smoothing.
 MOST_COPIES = 64
+
+CHUNK = 16384
+"""Triangles at a time, whose numbers stay in the processor's cache."""
 
 
 def smooth_normals(
@@ -63,39 +68,51 @@ def area_normals(
     vertices : (V, 3) float64
     triangles : (T, 3) integer, indices in range
     """
-    p = vertices[triangles]
+    p = np.moveaxis(vertices[triangles], 0, 2)
     # In units of the longest edge, so that no product leaves float64's range.
-    longest = np.abs(p[:, 1:] - p[:, :1]).max(initial=0.0) or 1.0
-    e1, e2 = (np.asarray((p[:, k] - p[:, 0]) / longest) for k in (1, 2))
-    crossed = np.cross(e1, e2)
-    normals = unit(_sums(len(vertices), triangles, crossed, np.ones(triangles.shape)))
-    return _filled(normals, normals, unit(crossed), triangles)
+    longest = np.abs(p[1:] - p[:1]).max(initial=0.0) or 1.0
+    e1, e2 = ((p[k] - p[0]) / longest for k in (1, 2))
+    crossed = cross(e1, e2)
+    normals = unit(_sums(len(vertices), triangles, crossed, np.ones(crossed.shape)))
+    return _filled(normals, normals, _unit(crossed), triangles)
 
 
 def edges_and_faces(
     vertices: NDArray[np.float64], triangles: NDArray[np.integer]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return edges (T, 3, 3), cross products of the first two (T, 3), and the lengths (T,) that both are in units of.
+) -> Iterator[tuple[slice, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
+    """Yield, of CHUNK triangles after CHUNK, which they are, their edges, and these' cross products.
 
     Each triangle's own unit is the largest coordinate of its edges, so that no product leaves float64's range.
+
+    Returns
+    -------
+    which : of the triangles
+    edges : (3, 3, n), from corner 0 to 1, 1 to 2 and 2 to 0
+    faces : (3, n), cross products of the first two
+    lengths : (n,), the units
     """
-    p = vertices[triangles]
-    edges = np.roll(p, -1, axis=1) - p
-    longest = np.max(np.abs(edges), axis=(1, 2), keepdims=True, initial=0.0)
-    unit_length = np.where(longest > 0.0, longest, 1.0)
-    edges /= unit_length
-    return edges, np.cross(edges[:, 0], edges[:, 1]), unit_length[:, 0, 0]
+    for first in range(0, len(triangles), CHUNK):
+        which = slice(first, first + CHUNK)
+        p = np.ascontiguousarray(np.moveaxis(vertices[triangles[which]], 0, 2))
+        edges = p[[1, 2, 0]] - p
+        longest = np.abs(edges).max(axis=(0, 1))
+        unit_length = np.where(longest > 0.0, longest, 1.0)
+        edges /= unit_length
+        yield which, edges, cross(edges[0], edges[1]), unit_length
 
 
 def _faces_and_angles(
     vertices: NDArray[np.float64], triangles: NDArray[np.integer]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return face normals (T, 3), zero where there is no area, and corner angles (T, 3)."""
-    edges, faces, _ = edges_and_faces(vertices, triangles)
-    areas = np.sqrt(np.sum(faces * faces, axis=1))
-    # At corner k the edges k and (minus) k - 1 meet; all three pairs span twice the same area.
-    cosines = -np.sum(edges * np.roll(edges, 1, axis=1), axis=2)
-    return unit(faces), np.arctan2(areas[:, None], cosines)
+    """Return face normals (3, T), zero where there is no area, and corner angles (3, T)."""
+    normals, angles = np.empty((2, 3, len(triangles)))
+    for which, edges, faces, _ in edges_and_faces(vertices, triangles):
+        areas = np.sqrt(dot(faces, faces))
+        # At corner k the edges k and (minus) k - 1 meet; all three pairs span twice the same area.
+        for corner in range(3):
+            angles[corner, which] = np.arctan2(areas, -dot(edges[corner], edges[corner - 1]))
+        normals[:, which] = _unit(faces)
+    return normals, angles
 
 
 def _sums(
@@ -104,12 +121,13 @@ def _sums(
     faces: NDArray[np.float64],
     weights: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return for each of the vertices (count, 3) the sum of its faces (T, 3) by the weights of its corners (T, 3)."""
+    """Return for each of the vertices (count, 3) the sum of its faces (3, T) by the weights of its corners (3, T)."""
     sums = np.zeros((count, 3))
-    for axis in range(3):
-        for corner in range(3):
+    for corner in range(3):
+        vertex = np.ascontiguousarray(triangles[:, corner], np.intp)
+        for axis in range(3):
             sums[:, axis] += np.bincount(
-                triangles[:, corner], weights=weights[:, corner] * faces[:, axis], minlength=count
+                vertex, weights=weights[corner] * faces[axis], minlength=count
             )
     return sums
 
@@ -146,19 +164,30 @@ def _filled(
     faces: NDArray[np.float64],
     triangles: NDArray[np.integer],
 ) -> NDArray[np.float64]:
-    """Return `normals` with something of unit length where they are zero."""
+    """Return `normals` with something of unit length where they are zero; faces (3, T)."""
+    if _some(normals.T).all():
+        return normals
     any_face = np.zeros_like(normals)
-    solid = np.any(faces, axis=1)
+    solid = _some(faces)
     for corner in range(3):
-        any_face[triangles[solid, corner]] = faces[solid]
+        any_face[triangles[solid, corner]] = faces[:, solid].T
     for choice in (own, any_face, np.array([0.0, 1.0, 0.0])):
-        normals = np.where(np.any(normals, axis=1, keepdims=True), normals, choice)
+        normals = np.where(_some(normals.T)[:, None], normals, choice)
     return normals
+
+
+def _some(vectors: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which of the vectors (3, N) aren't zero."""
+    return np.asarray((vectors[0] != 0) | (vectors[1] != 0) | (vectors[2] != 0))
 
 
 def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors (N, 3) at unit length; zero stays zero. No square leaves float64's range."""
-    largest = np.max(np.abs(vectors), axis=1, keepdims=True)
+    return np.ascontiguousarray(_unit(np.asarray(vectors).T).T)
+
+
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same of (3, N)."""
+    largest = np.abs(vectors).max(axis=0)
     scaled = vectors / np.where(largest > 0.0, largest, 1.0)
-    lengths = np.sqrt(np.sum(scaled * scaled, axis=1, keepdims=True))
-    return np.asarray(scaled / np.where(largest > 0.0, lengths, 1.0))
+    return np.asarray(scaled / np.where(largest > 0.0, np.sqrt(dot(scaled, scaled)), 1.0))

@@ -44,7 +44,10 @@ def _from_behind(lengths: NDArray[np.int64], corners: NDArray[np.integer]) -> Ma
     place = corners.astype(np.uint64)
     mixed = drawn[place & np.uint64(0xFFFF)] ^ (place * np.uint64(0x9E3779B97F4A7C15))
     if (lengths == lengths[0]).all():
-        sums = mixed.reshape(len(lengths), -1).sum(axis=1)
+        # Corner by corner: along rows so short NumPy adds slowly.
+        sums = np.zeros(len(lengths), np.uint64)
+        for corner in mixed.reshape(len(lengths), -1).T:
+            sums += corner
     else:
         sums = np.add.reduceat(mixed, starts)
     ranked = np.sort(sums)

@@ -234,7 +234,9 @@ def _fill(
         if normals is not None:
             n, unit = normals
             # The file's normal is more precise: rounding vertices to float32 turns a small triangle.
-            flat = (np.abs(n - ng) < FLAT).all(axis=(0, 1)) & (n == n[0]).all(axis=(0, 1))
+            flat = (n[1:] == n[0]).all(axis=(0, 1))
+            some = np.flatnonzero(flat)
+            flat[some] = (np.abs(n[0][:, some] - ng[:, some]) < FLAT).all(axis=0)
             ng = np.where(flat, n[0], ng)
             cosine = min((float(dot(ng, corner).min(initial=1)) for corner in unit), default=1.0)
             largest_sine = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
