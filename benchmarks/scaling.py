@@ -1,4 +1,4 @@
-"""Cost as work grows: triangles, lights, movers, pixels and threads, each over its range, beside Mitsuba's.
+"""Cost as work grows: triangles, lights, movers, samples, pixels and threads, each over its range, beside Mitsuba's.
 
 Each point is a process of its own: seconds to read and build the scene, seconds of the second of two pictures, and peak
 memory. The exponent is the slope of the last steps, both axes logarithmic: 1 where twice the work costs twice as much.
@@ -111,8 +111,9 @@ class Axis:
 AXES = {
     # Embree's hierarchy is as deep as the logarithm; building it takes in proportion.
     "triangles": Axis((10**3, 10**4, 10**5, 10**6, 10**7), hills, 0.3),
-    "lights": Axis((1, 10, 100, 1000), lamps, 0.3, programs=(OURS, ALL, MITSUBA)),
+    "lights": Axis((1, 10, 100, 1000, 10**4, 10**5), lamps, 0.3, programs=(OURS, ALL, MITSUBA)),
     "movers": Axis((1, 4, 16, 64), movers, 0.5, programs=(OURS,)),
+    "samples": Axis((4, 16, 64, 256, 1024), lambda _: _scene([FLOOR, BALL]), 1.05),
     # Powers of 4, times 512 x 256.
     "pixels": Axis((1, 4, 16, 64, 256), lambda _: _scene([FLOOR, BALL]), 1.05),
     "threads": Axis((1, 2, 4, 8, 16), lambda _: _scene([FLOOR, BALL]), 0.2, programs=(OURS,)),
@@ -192,7 +193,7 @@ def _process(name: str, count: int, program: str) -> Point:
     """Measure in a process of its own."""
     factor = round(count**0.5) if name == "pixels" else 1
     size = (512 * factor, 256 * factor) if name == "pixels" else SIZE
-    samples = 1 if name == "pixels" else SAMPLES
+    samples = {"pixels": 1, "samples": count}.get(name, SAMPLES)
     threads = count if name == "threads" else THREADS
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.yaml")
