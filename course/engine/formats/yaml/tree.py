@@ -85,7 +85,7 @@ def _within_bounds() -> str:
     return "0 or a number from 1e-150 to 1e150 in size"
 
 
-MOST_VALUES: Final = 1_000_000  # counted with every alias written out
+MOST_VALUES: Final = 2_000_000  # counted with every alias written out; 100,000 lamps have 1,100,000
 DEEPEST: Final = 64
 
 _TOO_DEEP = f"nested more than {DEEPEST} levels deep: too deep for a scene"
