@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
+from course.engine.core.camera import Camera
 from course.engine.render.adaptive.bright import bright_things, parts_of
 from course.engine.render.adaptive.glimpses import FIRST, UNIMPORTANT, glimpses
 from course.engine.render.adaptive.prior import Prior
@@ -54,6 +57,14 @@ def foresee(job: Job, error: float) -> Foresight:
         Prior(chances, target) if left > UNIMPORTANT * target else None,
         chances.rays,
         unbounded(
-            loaded.description, world, things, bright, settings.max_depth, reflections.cut_short
+            *(loaded.description, world, things, bright, settings.max_depth),
+            *(reflections.cut_short, _footprint(camera)),
         ),
     )
+
+
+def _footprint(camera: Camera) -> float:
+    """How wide a pixel sees what is far away, at a distance of 1."""
+    pixel = float(np.linalg.norm(camera.step_y))
+    lens = camera.lens
+    return pixel if lens is None else max(pixel, 2 * lens.aperture_radius / lens.focus_distance)

@@ -30,6 +30,7 @@ def unbounded(
     bright: float,
     deepest: int,
     cut_short: Iterable[int],
+    footprint: float,
 ) -> tuple[str, ...]:
     """What an estimate of the error doesn't bound, a line for each cause.
 
@@ -38,16 +39,19 @@ def unbounded(
     bright : mean square of a radiance from which on a single pixel of it matters
     deepest : surfaces that rays meet after the first, at most
     cut_short : materials at which rays sent ahead weren't followed further
+    footprint : how wide a pixel, or what a lens makes of it, is at a distance of 1
     """
     small = [one for one in things if one.square > bright and one.area < 4 * np.pi * RARE]
     lamps = _listed(_thing(scene, one.material) for one in small)
     sky = _has_small_lights(world, bright)
+    told = []
     if sky:
         lamps = _listed([*([lamps] if lamps else []), "small lights of the environment"])
+        if _texel(world) < footprint / 2:
+            told.append("small lights of the environment, smaller than pixels")
     if not lamps or not deepest:
-        return ()
+        return tuple(told)
     sends_on = np.flatnonzero(Surfaces(world).sends_on)
-    told = []
     paths = world.paths
     if paths is not None and world.materials.diffuses.any():
         if len(sends_on):
@@ -75,6 +79,12 @@ def _has_small_lights(world: FullWorld, bright: float) -> bool:
         return False
     square = (environment.faces.astype(np.float64) ** 2).mean(axis=-1)
     return 0 < float((square > max(bright, 4 * float(square.mean()))).mean()) < RARE
+
+
+def _texel(world: FullWorld) -> float:
+    """How wide one of a cube map's texels is at a distance of 1, in the middle of a face."""
+    assert isinstance(world.environment, CubeEnvironment)
+    return 2 / world.environment.faces.shape[1]
 
 
 def _thing(scene: SceneDescription, material: int) -> str:

@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,8 @@ from numpy.typing import NDArray
 
 from course import Picture, Scene, render
 from course.cli.tables import receipt_sections
+from course.engine.formats.pictures.display import Display
+from course.engine.formats.pictures.files import save
 from course.engine.loops.library import available
 from course.engine.render.adaptive.bright import bright_things, parts_of
 from course.engine.render.adaptive.film import PARTS, AdaptiveFilm
@@ -245,6 +248,37 @@ def test_a_caustic_is_told_by_name(make_scene: MakeScene) -> None:
     ]
     told = np.mean([told_by(picture)["estimated"] ** 2 for picture in pictures])
     assert told > float(np.mean(apart)) / 4
+
+
+def stars(tmp_path: Path, side: int) -> dict[str, Any]:
+    """An environment whose cube map has faces of side x side texels; one of a hundred is a star."""
+    cross = np.full((3 * side, 4 * side, 3), 0.01, np.float32)
+    cross.reshape(-1, 3)[np.random.default_rng(1).integers(0, 12 * side**2, side**2 // 8)] = 1000
+    save(tmp_path / "stars.exr", np.moveaxis(cross, 2, 0), Display())
+    return {"type": "cube", "cross": "stars.exr"}
+
+
+@pytest.mark.parametrize(
+    ("side", "more", "told"),
+    [
+        # Pixels are 2 tan 20 / 36 = .020 wide, texels 2 / side.
+        (256, {}, True),
+        (128, {}, False),
+        # Seen through a lens: 2 x .1 / 5 = .04.
+        (128, {"lens": {"aperture_radius": 0.1, "focus_distance": 5}}, True),
+    ],
+)
+def test_stars_that_are_smaller_than_pixels_are_told(
+    make_scene: MakeScene, tmp_path: Path, side: int, more: dict[str, Any], told: bool
+) -> None:
+    scene = scene_of(
+        make_scene,
+        camera={"eye": [0, 0, DISTANCE], "look_at": [0, 0, 0], "vertical_fov": FOV} | more,
+        environment=stars(tmp_path, side),
+        integrator={"max_depth": 0},
+    )
+    known = seen_ahead(scene, 0.01).unbounded
+    assert known == (("small lights of the environment, smaller than pixels",) if told else ())
 
 
 # --- What is seen ahead ---------------------------------------------------------------------------
