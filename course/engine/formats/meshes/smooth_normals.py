@@ -72,7 +72,7 @@ def area_normals(
     # In units of the longest edge, so that no product leaves float64's range.
     longest = np.abs(p[1:] - p[:1]).max(initial=0.0) or 1.0
     e1, e2 = ((p[k] - p[0]) / longest for k in (1, 2))
-    crossed = cross(e1, e2)
+    crossed = np.asarray(cross(e1, e2), np.float64)
     normals = unit(_sums(len(vertices), triangles, crossed, np.ones(crossed.shape)))
     return _filled(normals, normals, _unit(crossed), triangles)
 
@@ -98,7 +98,8 @@ def edges_and_faces(
         longest = np.abs(edges).max(axis=(0, 1))
         unit_length = np.where(longest > 0.0, longest, 1.0)
         edges /= unit_length
-        yield which, edges, cross(edges[0], edges[1]), unit_length
+        faces = np.asarray(cross(edges[0], edges[1]), np.float64)
+        yield which, edges, faces, unit_length
 
 
 def _faces_and_angles(

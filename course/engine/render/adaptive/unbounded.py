@@ -84,7 +84,7 @@ def _has_small_lights(world: FullWorld, bright: float) -> bool:
 def _texel(world: FullWorld) -> float:
     """How wide one of a cube map's texels is at a distance of 1, in the middle of a face."""
     assert isinstance(world.environment, CubeEnvironment)
-    return 2 / world.environment.faces.shape[1]
+    return 2 / len(world.environment.faces[0])
 
 
 def _thing(scene: SceneDescription, material: int) -> str:
