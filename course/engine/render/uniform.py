@@ -7,11 +7,20 @@ from course.base.errors import CourseError
 from course.engine.core.film import Film
 from course.engine.core.samplers import Sampler
 from course.engine.core.schedule import Executor, Run, UniformSchedule
-from course.engine.core.tiles import PASS, pass_size
+from course.engine.core.tiles import PASS, Work, pass_size, tile_picture
 from course.engine.core.tracer import Tracer
 from course.engine.functions.effects import Bound
 from course.engine.render.job import Job, Mode
 from course.engine.terms.work import DividedSchedule, preview
+
+MANY = 64
+"""Samples that there is time for, from which on the border of a pass that is cut short can't be seen."""
+
+FAR = 16
+"""How many times the samples that there is time for are asked for, at least, where no pass must be a whole one."""
+
+SURELY = 0.8
+"""Share of the time left that a pass is planned for."""
 
 
 class TimedSchedule(DividedSchedule):
@@ -19,8 +28,8 @@ class TimedSchedule(DividedSchedule):
 
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``."""
-        settings = self.tracer.settings
-        size = pass_size(settings, self.tracer.sampler)
+        settings, sampler = self.tracer.settings, self.tracer.sampler
+        size = pass_size(settings, sampler)
         for quick in (1, 4):
             # If a whole pass surely fits, a preview would be wasted.
             if size <= quick or self.done:
@@ -29,10 +38,30 @@ class TimedSchedule(DividedSchedule):
             run(preview(settings, quick), 0.0, 0.0)
             if executor.interrupted:
                 return False
-            seconds = before - executor.seconds_left
-            if seconds * size / quick < 0.5 * executor.seconds_left:
+            left = executor.seconds_left
+            fitting = quick * left / max(before - left, 1e-9)
+            if sampler.extensible and fitting < min(MANY, settings.samples / FAR):
+                return self._evenly(run, executor, fitting)
+            if size < 0.5 * fitting:
                 break
         return run(self.work(executor))
+
+    def _evenly(self, run: Run, executor: Executor, fitting: float) -> bool:
+        """Passes over the whole picture, each with as many samples as there is time for: ``fitting``, at first.
+
+        A pass of always as many would end somewhere in the picture, and its border would be seen.
+        """
+        settings, done = self.tracer.settings, 0
+        while (before := executor.seconds_left) > 0 and not executor.interrupted:
+            # One sample would be that of the preview.
+            least = 1 if done else 2
+            samples = min(max(int(SURELY * fitting), least), PASS, settings.samples - 1 - done)
+            tiles = tile_picture(settings.width, settings.height, samples)
+            run([Work(tile, 0, done, samples, True) for tile in tiles], 0.0, 0.0)
+            done += samples
+            left = executor.seconds_left
+            fitting = samples * left / max(before - left, 1e-9)
+        return False
 
 
 def make(

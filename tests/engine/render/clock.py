@@ -9,7 +9,9 @@ from course.engine.render import threads
 
 
 class Clock:
-    """Moves on by one whenever a thread looks before it takes work, and stands still for the one that waits."""
+    """Moves on by ``tick`` whenever a thread looks before it takes work, and stands still for the one that waits."""
+
+    tick = 1.0
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now = 1000.0
@@ -18,5 +20,5 @@ class Clock:
 
     def __call__(self) -> float:
         if threading.current_thread() is not threading.main_thread():
-            self.now += 1
+            self.now += self.tick
         return self.now
