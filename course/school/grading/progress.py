@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -15,6 +15,7 @@ from course.base.errors import OutputError
 from course.base.version import __version__
 from course.engine.functions.effects import PACKAGE
 from course.engine.functions.modules import COURSE, WARM_UP
+from course.school.grading.checks.check import Check
 from course.school.grading.grading import grade
 from course.school.grading.references import references
 from course.school.grading.report import FunctionResults, docs_page, findings, grouped, reproduce
@@ -78,11 +79,21 @@ def progress(
             known = {"key": key, "functions": _checked(folder, module, sources)}
             kept = _read(folder / KEPT) | {module: known}
             _write(folder / KEPT, kept)
-        path = paths.get(module, folder / f"{module}.py")
-        yield [
-            FunctionProgress(**function, file=str(path), line=line_of(path, function["name"]))
-            for function in known["functions"]
-        ]
+        yield _placed(known["functions"], paths.get(module, folder / f"{module}.py"))
+
+
+def some_of(folder: Path, module: str, names: Collection[str]) -> list[FunctionProgress]:
+    """Some functions of a module, checked before the others; none where that saves no time.
+
+    Raises SubmissionError: the file can't be read.
+    """
+    paths = find_modules(folder, (module,))
+    sources = read_found(folder, paths)
+    known = _read(folder / KEPT).get(module, {}).get("key") == _key(sources.get(module))
+    if known or module not in sources or not 0 < len(names) < len(COURSE[module]):
+        return []
+    functions = _checked(folder, module, sources, lambda check: check.function in names)
+    return _placed(functions, paths[module])
 
 
 def next_one(functions: list[FunctionProgress]) -> FunctionProgress | None:
@@ -107,9 +118,24 @@ def line_of(path: Path, function: str) -> int:
     return next((n for n, row in enumerate(rows, start=1) if row.startswith(begins)), 1)
 
 
-def _checked(folder: Path, module: str, sources: dict[str, bytes]) -> list[dict[str, Any]]:
-    report = grade(sources, references(), modules=(module,), shut_in=plain(), folder=folder)
+def _checked(
+    folder: Path,
+    module: str,
+    sources: dict[str, bytes],
+    only: Callable[[Check], bool] | None = None,
+) -> list[dict[str, Any]]:
+    report = grade(
+        sources, references(), modules=(module,), shut_in=plain(), only=only, folder=folder
+    )
     return [_told(function) for each in grouped(report) for function in each.functions]
+
+
+def _placed(functions: list[dict[str, Any]], path: Path) -> list[FunctionProgress]:
+    """With the file and the lines where they begin."""
+    return [
+        FunctionProgress(**function, file=str(path), line=line_of(path, function["name"]))
+        for function in functions
+    ]
 
 
 def _told(function: FunctionResults) -> dict[str, Any]:
@@ -128,7 +154,9 @@ def _told(function: FunctionResults) -> dict[str, Any]:
         first = function.told[0]
         found = dict(findings(first, 1))
         told["title"] = first.found if first.module_wide else first.title
-        told["found"] = "; ".join(filter(None, (found.get("found"), found.get("hint"))))
+        # A number alone doesn't say whether it was found or expected.
+        both = [f"{name} {found[name]}" for name in ("found", "expected") if found.get(name)]
+        told["found"] = "; ".join(filter(None, (", ".join(both), found.get("hint"))))
         told["again"] = f"{reproduce(first, 0)} --hint 2"
     return told
 

@@ -6,6 +6,7 @@ goes to its standard error. A command that comes while a picture is rendered int
     scene    file, values, effects, late: compile it; if late, its functions are loaded afterwards
     load     take the functions as they are in their files now
     render   job, upto, most: add passes up to so many samples of the most that there will be; a new job begins again
+    preview  job: a small picture of one sample a pixel, unless another one is asked for already
     pixel    x, y, job: tell what became of the samples of a pixel
     rays     x, y: tell the same as bare rays, to be put beside somebody else's
     pair     x, y, rays: tell the last pixel's story once more, beside the course's rays of the same samples
@@ -13,6 +14,7 @@ goes to its standard error. A command that comes while a picture is rendered int
 
 from __future__ import annotations
 
+import math
 import os
 import queue
 import sys
@@ -57,6 +59,12 @@ LONG = 0.8
 SHOW_FIRST, SHOW = 0.08, 0.5
 """Seconds between two looks at a picture before and after every pixel has a sample."""
 
+PREVIEW = 0.1
+"""Seconds that a picture may take that follows the mouse: its size is chosen so."""
+
+LEAST, FIRST, LARGEST = 60 * 40, 120 * 80, 240 * 160
+"""Pixels of such a picture: the fewest, of the first one, and the most."""
+
 STORY_SAMPLES = 64
 """The most samples of a pixel that are told."""
 
@@ -86,6 +94,7 @@ class Program:
         self._job = 0
         self._display = SRGB
         self._compiled = False
+        self._little = float(FIRST)
         self.note = ""
 
     def run(self) -> None:
@@ -112,6 +121,8 @@ class Program:
             self._load()
         elif kind == "render":
             self._render(**command)
+        elif kind == "preview":
+            self._preview(**command)
         elif kind == "pixel":
             self._tell(**command)
         elif kind == "rays":
@@ -242,6 +253,27 @@ class Program:
 
         picture.render(upto, tell)
         self.channel.send({"rendered": job, "samples": picture.samples})
+
+    def _preview(self, job: int) -> None:
+        with self.commands.mutex:
+            if any(each is not None and each["do"] == "preview" for each in self.commands.queue):
+                return
+        began = monotonic()
+        settings = settings_of(self.scene)
+        share = min(1.0, math.sqrt(self._little / (settings.width * settings.height)))
+        width, height = (max(1, round(share * each)) for each in (settings.width, settings.height))
+        settings = replace(settings, width=width, height=height, samples=1)
+        settings = replace(settings, subdivision=None)
+        develop = self._developing(settings).develop
+        picture = Progressive(self.scene, settings, self._compiled)
+        picture.render(1, lambda *_: None)
+        film = picture.film
+        codes = [] if develop is None else [develop(film.linear)]
+        told = {"preview": job, "seconds": picture.seconds, "more": ["codes"] if codes else []}
+        self.channel.send(told, film.linear, film.samples > 0, *codes)
+        taken = max(monotonic() - began, 1e-3)
+        pixels = self._little * min(max(PREVIEW / taken, 0.5), 2.0)
+        self._little = min(max(pixels, LEAST), LARGEST)
 
     def _developing(self, settings: SceneSettings) -> Display:
         """How the picture is shown, by functions of `film` where the scene asks for them."""

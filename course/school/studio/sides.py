@@ -33,6 +33,9 @@ class Side:
     goal : samples that it renders towards; 0 if it doesn't
     reached : samples that the latest picture has
     shot, shots : the latest picture, and those of complete passes
+    shown : number of the job that the latest picture belongs to
+    old : whether that picture, or a part of it, is of a scene or of functions that have changed since
+    small : whether it is the small one that follows a view that is being changed
     trouble : why it can't go on, until something changes; empty if it can
     note : what is going on, for the page
     ready : whether it has its functions, or has been told to read them; before, it may be silent while it reads files
@@ -52,6 +55,9 @@ class Side:
     reached: int = 0
     shot: Shot | None = None
     shots: list[Shot] = field(default_factory=list)
+    shown: int = 0
+    old: bool = False
+    small: bool = False
     before: Shot | None = None
     trouble: str = ""
     function: str = ""
@@ -118,10 +124,16 @@ class Side:
         self.goal = goal
         self.worker.send(do="render", job=self.job, upto=goal, most=most)
 
+    def preview(self) -> None:
+        """Show a small picture at once."""
+        assert self.worker is not None
+        self.worker.send(do="preview", job=self.job)
+
     def anew(self, job: int) -> None:
         """Forget what was reached: something has changed."""
         self.job, self.reached, self.goal = job, 0, 0
         self.shots = []
+        self.old = self.shot is not None
 
     def fail(self, why: str, function: str = "") -> None:
         """It can't go on as it is."""

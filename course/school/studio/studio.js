@@ -48,12 +48,17 @@
       if (next !== key) load(name, canvas, next);
     }
   }
-  const scratch = document.createElement("canvas");
+  const scratch = document.createElement("canvas"), kept = document.createElement("canvas");
   function draw(canvas, width, height, pixels) {
     if (canvas.width !== width || canvas.height !== height) {
+      // A picture of another size, such as the small ones that follow a view, stays until there is more.
+      kept.width = canvas.width;
+      kept.height = canvas.height;
+      kept.getContext("2d").drawImage(canvas, 0, 0);
       canvas.width = width;
       canvas.height = height;
-      canvas.style.aspectRatio = `${width} / ${height}`;
+      canvas.style.aspectRatio = `${size[0]} / ${size[1]}`;
+      canvas.getContext("2d").drawImage(kept, 0, 0, width, height);
     }
     scratch.width = width;
     scratch.height = height;
@@ -65,6 +70,15 @@
 
   // ---- what the studio tells
   const samples = (n) => (n === 1 ? "1 sample a pixel" : `${n} samples a pixel`);
+  const FEW = 16;
+  function caption(name, side) {
+    if (side.small) return "follows the view: a small picture, 1 sample a pixel, grainy";
+    if (side.old) return side.trouble ? "the picture before" : "the picture before; the new one is being made";
+    if (!side.samples) return side.rendering ? "being made" : "";
+    const far = side.samples < side.most && !side.trouble;
+    const so = far ? ` so far, ${side.most} to come` : "";
+    return `${samples(side.samples)}${so}, ${side.seconds.toFixed(1)} s${side.samples < FEW && far ? ": still grainy" : ""}`;
+  }
   function show(told) {
     state = told;
     size = told.size;
@@ -73,9 +87,8 @@
     put("title", told.title === told.file ? told.file : `${told.title} (${told.file})`);
     for (const [name, side] of Object.entries(told.sides)) {
       load(name, $(name), `${side.job} ${side.version}`);
-      const at = side.samples ? `${samples(side.samples)}, ${side.seconds.toFixed(1)} s` : side.rendering ? "rendering" : "";
-      put(`${name}-told`, at);
-      $(name).classList.toggle("old", Boolean(side.trouble));
+      put(`${name}-told`, caption(name, side));
+      $(name).classList.toggle("old", Boolean(side.trouble) || side.old);
       const lines = [side.trouble, side.note];
       if (side.printed && (side.trouble || side.note || name === "mine")) lines.push(`printed:\n${side.printed.slice(0, 600)}`);
       const text = lines.filter(Boolean).join("\n\n");
@@ -88,30 +101,32 @@
     put("status", told.own ? `The studio failed at something, and goes on: ${told.own}` : told.trouble ? `The scene has a mistake: ${told.trouble}` : doing.length ? `rendering ${doing.join(" and ")}` : "ready");
     document.body.dataset.state = doing.length ? "rendering" : "ready";
     if (mine) {
-      const key = $("which").value;
-      load(key, $("difference"), `${key} ${mine.job} ${mine.version} ${told.sides.course.version}`);
+      const key = $("which").value, known = (key === "change" ? told.changed : told.differing) !== null;
+      $("difference").classList.toggle("old", !known);
+      if (known) load(key, $("difference"), `${key} ${mine.job} ${mine.version} ${told.sides.course.version}`);
       verdict(told);
       curve(told);
     }
     sliders(told);
     $("reset").disabled = !told.moved;
-    if (told.sides[main].job >= awaited) pending = false;
+    if (told.sides[main].shown >= awaited) pending = false;
     flush();
   }
 
   function verdict(told) {
     const change = $("which").value === "change", share = change ? told.changed : told.differing;
-    const what = change ? "the picture before the last save" : "the reference";
-    if (share === null) put("verdict", change ? "Nothing was saved yet." : "");
-    else if (share < 0.0005) put("verdict", `No difference from ${what} but noise.`);
-    else put("verdict", `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % of the picture differs from ${what} by more than noise${told.sides.course.rendering && !change ? ", so far" : ""}.`);
+    const mine = told.sides.mine, many = change ? samples(mine.samples) : `${told.compared[0]} and ${told.compared[1]} samples a pixel`;
+    const both = change ? "your picture now and before the last save" : `your picture and the reference, of ${many}`;
+    if (share === null) put("verdict", change && !told.saved ? "Nothing was saved yet." : mine.trouble || (!change && told.sides.course.trouble) ? "There is nothing to compare: one of the pictures isn't there." : `Being made: it compares ${change ? both : "your picture with the reference of the same view"}.`);
+    else if (share < 0.0005) put("verdict", `No difference between ${both} but noise.`);
+    else put("verdict", `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % of the pixels differ by more than noise between ${both}${told.sides.course.rendering && !change ? ", so far" : ""}.`);
   }
 
   function curve(told) {
     const box = $("curve"), width = 360, height = 240, left = 46, low = 200, top = 14, right = 346;
     const lines = [["before", told.curve_before], ["now", told.curve]].map(([name, points]) => [name, points.filter((p) => p[0] > 0 && p[2] > 0)]);
     const all = lines.flatMap(([, points]) => points);
-    const key = JSON.stringify(lines);
+    const key = JSON.stringify([lines, told.sides.course.samples]);
     if (box.dataset.key === key) return;
     box.dataset.key = key;
     box.replaceChildren();
@@ -147,7 +162,8 @@
     }
     const last = told.curve[told.curve.length - 1];
     box.setAttribute("aria-label", last ? `Distance from the reference over time: ${last[2].toPrecision(2)} after ${last[0].toFixed(1)} s, ${samples(last[1])}` : "Distance from the reference over time");
-    $("curve-legend").replaceChildren(make("i", { class: "line" }), " now ", ...(told.curve_before.length ? [make("i", { class: "line before" }), " before the last save"] : []));
+    const many = told.sides.course.samples;
+    $("curve-legend").replaceChildren(make("i", { class: "line" }), ` your picture now, after 1, 2, 4 ... samples a pixel, against the reference${many ? ` of ${many}` : ""} `, ...(told.curve_before.length ? [make("i", { class: "line before" }), " the same before the last save"] : []));
   }
 
   // ---- sliders
@@ -245,10 +261,15 @@
   }
 
   // ---- the story of a pixel
+  function below(text, to) {
+    $("asked").replaceChildren(text, ...(to ? [" ", make("a", { href: "#story-of" }, "See its rays below.")] : []));
+  }
   function pixel(x, y, side) {
     $("x").value = x;
     $("y").value = y;
     put("status", `asking for pixel ${x},${y}`);
+    below(`Pixel ${x},${y}: it is being told, below.`);
+    $("story").classList.add("old");
     ask("pixel", { x, y, side });
   }
   $("pixel-form").addEventListener("submit", (event) => {
@@ -272,11 +293,19 @@
     // Whoever comes back is told the last one again: what was chosen in its view stays.
     if (key === storyKey) return;
     storyKey = key;
-    root.dataset.pixel = told.story.join(",");
-    if (told.failed) {
-      root.replaceChildren(make("p", { class: "trouble" }, told.failed));
+    const place = told.story.join(",");
+    root.dataset.pixel = place;
+    root.classList.toggle("old", Boolean(told.old));
+    [$("x").value, $("y").value] = told.story;
+    put("story-told", told.old ? `${told.old}: what stands here is of the picture before. Pixel ${place} is told again as soon as there is a new one.` : "");
+    if (told.failed || !told.rays) {
+      root.replaceChildren(...(told.failed ? [make("p", { class: "trouble" }, told.failed)] : []));
+      below(told.failed ? `Pixel ${place}: ${told.failed}.` : `Pixel ${place}: it is being told, below.`);
       return;
     }
+    below(told.old ? `Pixel ${place} is told again: ${told.old.toLowerCase()}.` : `Pixel ${place}: ${told.reason}.`, true);
+    if (told.old && root.dataset.of === `${told.job} ${place}`) return;
+    root.dataset.of = `${told.job} ${place}`;
     const rays = make("div", { class: "rays" });
     const list = make("details", { open: "" }, make("summary", {}, "What the rays met"), tree(told.tree));
     const whose = told.side === "mine" ? "With your functions, " : viewing ? "" : "With the course's functions, ";
@@ -290,7 +319,7 @@
     const points = (n) => Number(n.toFixed(2));
     const all = told.modules.length, done = all - told.waiting;
     const sofar = `${points(told.points)} of ${points(told.of)} points`;
-    put("points", !told.waiting ? sofar : `Checking: ${done} of ${all} modules are done${done ? `, ${sofar} so far` : ""}.`);
+    put("points", !told.waiting ? `${sofar} in all ${all} modules` : `Checking: ${done} of ${all} modules are done${done ? `, ${sofar} so far` : ""}.`);
     $("next").replaceChildren();
     if (told.next) {
       const place = told.where.split(/[\\/]/).slice(-2).join("/");
@@ -301,10 +330,10 @@
       make("h3", {}, each.name, each.checking ? " (checking)" : ""),
       ...(each.trouble ? [make("p", { class: "hint" }, each.trouble)] : []),
       make("ul", {}, ...each.functions.map((one) => {
-        const text = each.checking ? "checking" : one.state;
+        const text = one.state;
         const item = make("li", { class: called.has(`${one.module}.${one.name}`) ? "called" : "", "data-function": `${one.module}.${one.name}`, "data-state": text },
           make("div", {}, make("code", { class: "name" }, one.name), make("span", { class: `state ${text.replaceAll(" ", "-")}` }, text)));
-        if (one.title && !each.checking) {
+        if (one.title) {
           item.append(make("p", { class: "hint" }, `${one.title}. ${one.found}`), make("p", { class: "hint" }, make("code", {}, one.again)));
         }
         return item;
@@ -314,7 +343,13 @@
   }
 
   // ---- buttons
-  $("which").addEventListener("change", () => show(state));
+  $("which").addEventListener("change", () => {
+    const canvas = $("difference");
+    canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
+    delete shown.difference;
+    delete shown.change;
+    show(state);
+  });
   $("reset").addEventListener("click", () => ask("reset"));
   $("again").addEventListener("click", () => ask("again"));
   $("yaml").addEventListener("click", async () => {

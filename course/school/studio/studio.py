@@ -24,8 +24,6 @@ from course.engine.formats.yaml.document import KeyPath
 from course.engine.formats.yaml.loading import load_description
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.functions.modules import COURSE
-from course.school.grading.progress import FunctionProgress, next_one
-from course.school.studio.checker import Checker
 from course.school.studio.differing import Shot, coloured, deviations, rms, share_differing
 from course.school.studio.engine import ENGINE, NO_RAYS
 from course.school.studio.keys import Slider, sliders
@@ -33,6 +31,7 @@ from course.school.studio.late import IMPORTING
 from course.school.studio.orbit import orbited, within_limits
 from course.school.studio.prepared import fitting
 from course.school.studio.sides import ANSWER_WITHIN, SILENT, Side
+from course.school.studio.verdicts import Verdicts
 from course.school.studio.worker import RenderWorker
 
 POLL = 0.04
@@ -49,11 +48,13 @@ MOST = 256
 TRIED_AGAIN = ("orbit", "value", "reset", "again")
 """Wishes of the page after which the studio's own failure is told no longer, unless it fails again."""
 
+NO_PICTURE = "there is no picture that it could be told of"
+
 GONE = 1.0
 """Seconds after which a file that isn't there is gone: editors that save take it away for a moment."""
 
-CHECKS_WAIT = 4.0
-"""Seconds after a save after which checks no longer wait for the picture."""
+STILL = 0.3
+"""Seconds without a change of the view after which it is no longer followed by small pictures."""
 
 
 class Studio:
@@ -83,25 +84,29 @@ class Studio:
         self._wanted_pixel: tuple[int, int] | None = None
         self._asked: Side | None = None
         self._asked_early: dict[str, Any] | None = None
-        self._told_again: tuple[int, int] | None = None
+        self._told_again: dict[str, Any] | None = None
         self._story: dict[str, Any] | None = None
+        self._shown_story: dict[str, Any] | None = None
         self._beside: dict[str, Any] | None = None
-        self._saved = monotonic()
+        self._moved: float | None = None
+        self._waited = False
         self._curve: list[tuple[float, int, float]] = []
         self._curve_before: list[tuple[float, int, float]] = []
         self._differing: float | None = None
         self._changed: float | None = None
+        self._compared: list[int] = []
         self._scene_trouble = self._own_trouble = ""
-        self._functions: dict[str, dict[str, Any]] = {}
-        self._to_check: list[str] = []
-        self._under_check: list[str] = []
-        self._checking = ""
-        self._checker: Checker | None = None
+        self.verdicts: Verdicts | None = None
         self.mine: Side | None = None
         if folder is not None:
             self.mine = Side("mine", folder, True, self._event)
             self.folder = Effects(folder).folder
-            self._checker = Checker(self.folder, lambda told: self._queue.put(("check", told)))
+            self.verdicts = Verdicts(
+                self.folder,
+                module,
+                lambda told: self._queue.put(("check", told)),
+                lambda: self._say("functions", self.functions()),
+            )
         self.course = Side("course", self._courses(), False, self._event)
         self._seen: dict[Path, tuple[int, int]] = {}
         self._missing: dict[Path, float] = {}
@@ -136,8 +141,8 @@ class Studio:
         self._thread.join()
         for side in self.sides:
             side.close()
-        if self._checker is not None:
-            self._checker.close()
+        if self.verdicts is not None:
+            self.verdicts.close()
 
     def ask(self, kind: str, **told: Any) -> None:
         """A wish of the page."""
@@ -164,6 +169,10 @@ class Studio:
         pairs = {"difference": (mine, course), "change": (mine, before)}
         if name in pairs:
             a, b = pairs[name]
+            # Pictures of two views, or of a view and a small one, have no difference.
+            compared = self.sides if name == "difference" else self.sides[:1]
+            if any(side.old or side.small for side in compared):
+                return None
             b = self._alike(a, b)
             if a is None or b is None or a.linear.shape != b.linear.shape:
                 return None
@@ -194,7 +203,6 @@ class Studio:
     def _run(self) -> None:
         self._seen = self._times()
         self._begin()
-        self._check(self._modules())
         looked = monotonic()
         while not self._stopped:
             try:
@@ -227,26 +235,70 @@ class Studio:
 
     def _on_hello(self, events: queue.Queue[tuple[str, Any]]) -> None:
         events.put(("state", self.state()))
-        events.put(("functions", self._told_functions()))
-        if self._story is not None:
-            events.put(("story", self._story))
+        events.put(("functions", self.functions()))
+        if self._shown_story is not None:
+            events.put(("story", self._shown_story))
+
+    def _say_story(self, story: dict[str, Any]) -> None:
+        self._shown_story = story
+        self._say("story", story)
 
     # ---------------------------------------------------------------- what is rendered
 
     def _begin(self, fresh: bool = False) -> None:
         """Render everything again: the scene has changed."""
+        self._forget("The scene has changed")
+        for side in self.sides:
+            self._bring_scene(side, fresh)
+        self._go()
+
+    def _bring_scene(self, side: Side, fresh: bool = False) -> None:
+        if fresh or side.worker is not None or not side.trouble:
+            values = [[list(path), value] for path, value in self.values.items()]
+            side.start(str(self.scene), values, False)
+
+    def _forget(self, why: str) -> None:
+        """Nothing that was rendered or told belongs to the scene any more."""
         job = next(self._jobs)
-        values = [[list(path), value] for path, value in self.values.items()]
         for side in self.sides:
             side.anew(job)
-            gone = side.trouble and side.worker is None
-            if fresh or not gone:
-                side.start(str(self.scene), values, False)
         self._curve, self._curve_before = [], []
         self._differing = self._changed = None
         if self.mine is not None:
             self.mine.before = None
-        self._story = self._told_again = None
+        self._outdate(why, *self.sides)
+        self._moved = None
+
+    def _outdate(self, why: str, *sides: Side) -> None:
+        """What is told of a pixel, or was asked for, is told again once there is another picture."""
+        story, names = self._shown_story, [side.name for side in sides]
+        if self._asked in sides and self._wanted_pixel is not None and self._asked is not None:
+            (x, y), side = self._wanted_pixel, self._asked.name
+            self._wanted_pixel = self._asked = None
+        elif story is not None and story["side"] in names:
+            (x, y), side = story["story"], story["side"]
+        else:
+            return
+        self._told_again, self._story = {"x": x, "y": y, "side": side}, None
+        if story is None or "old" not in story:
+            self._say_story((story or {}) | {"story": [x, y], "side": side, "old": why})
+
+    def _follow(self) -> None:
+        """The view is being changed: small pictures follow it, and all is rendered once it stays."""
+        main = self.mine or self.course
+        if self.course.goal and self.course.worker is not None:
+            self.course.worker.send(do="pause")
+        self._forget("The view has changed")
+        self._moved = monotonic()
+        self._bring_scene(main)
+        if main.worker is not None and not main.awaiting and not main.trouble:
+            main.preview()
+
+    def _stay(self) -> None:
+        """The view has stayed for a while."""
+        self._moved = None
+        if self.course is not (self.mine or self.course):
+            self._bring_scene(self.course)
         self._go()
 
     def _save(self) -> None:
@@ -257,20 +309,24 @@ class Studio:
         if mine.shots:
             mine.before = mine.shots[-1]
         # The story follows a save, as the picture does; whoever was telling one is ended.
-        if self._asked is mine:
-            self._told_again, self._wanted_pixel, self._asked = self._wanted_pixel, None, None
-        elif self._story is not None and self._story["side"] == "mine":
-            x, y = self._story["story"]
-            self._told_again = x, y
+        self._outdate("You have saved a file", mine)
         mine.anew(next(self._jobs))
-        self._saved = monotonic()
         mine.start(str(self.scene), values, True)
         self._curve_before, self._curve = self._curve or self._curve_before, []
         self._differing = self._changed = None
         self._go()
 
     def _goals(self) -> list[tuple[Side, int]]:
-        """What has to be reached, in this order."""
+        """What is to be reached now, in this order."""
+        goals = self._plan()
+        if self.verdicts is not None and self.verdicts.first:
+            # A first look finds what ends a function, and leaves the processors to the checks.
+            side, goal = goals[0]
+            return [(side, goal if self.loaded.description.film.subdivision else 1)]
+        return goals
+
+    def _plan(self) -> list[tuple[Side, int]]:
+        """What has to be reached."""
         samples = self._samples()
         reference = min(REFERENCE * samples, max(MOST, samples))
         if self.mine is None:
@@ -288,7 +344,7 @@ class Studio:
 
     def _go(self) -> None:
         """Have the next thing rendered; nobody waits for a side that is busy with something else."""
-        if self._wanted_pixel is not None:
+        if self._wanted_pixel is not None or self._moved is not None:
             return
         goals = self._goals()
         for number, (side, goal) in enumerate(goals):
@@ -301,8 +357,12 @@ class Studio:
                     if other.goal and other.worker is not None and not other.note:
                         other.worker.send(do="pause")
             if not side.goal and not side.awaiting:
-                side.render(goal, max(each for other, each in goals if other is side))
+                side.render(goal, self._most(side))
             return
+
+    def _most(self, side: Side) -> int:
+        """Samples that its picture will have."""
+        return max(goal for other, goal in self._plan() if other is side)
 
     def _prepare_spare(self) -> None:
         """Once one's own picture shows something, a process is made ready for the next save."""
@@ -325,21 +385,22 @@ class Studio:
             return
         if "picture" in told and told["picture"] == side.job:
             self._on_picture(side, told, arrays)
+        elif "preview" in told and told["preview"] == side.job:
+            self._on_preview(side, told, arrays)
         elif "rendered" in told and told["rendered"] == side.job:
             # Some samplers stop before.
             side.reached, side.goal = max(side.reached, side.goal), 0
-            self._check_soon()
-            if side is self.mine and self._told_again is not None:
-                x, y = self._told_again
-                self._on_pixel({"x": x, "y": y})
+            self._soon()
+            if self._told_again is not None and self._told_again["side"] == side.name:
+                self._on_pixel(self._told_again)
             self._go()
         elif "interrupted" in told and told["interrupted"] == side.job:
             side.goal = 0
         elif "scene" in told:
-            if self._needs != told["needs"]:
-                self._needs = told["needs"]
-                self._to_check.sort(key=self._modules().index)
-            self._say("functions", self._told_functions())
+            self._needs = told["needs"]
+            if self.verdicts is not None:
+                self.verdicts.know(self._needs)
+            self._say("functions", self.functions())
             if side.awaiting:
                 side.load()
                 if self._asked_early is not None and side is self.mine:
@@ -348,10 +409,12 @@ class Studio:
         elif "loaded" in told:
             side.called, side.ready = told["loaded"], True
         elif "story" in told:
-            self._wanted_pixel = self._asked = None
-            self._story = told = told | {"side": side.name, "is_right": self._is_right(told)}
-            self._say("story", told)
-            self._put_beside()
+            # One of a picture before comes too late.
+            if told["job"] == side.job:
+                self._wanted_pixel = self._asked = None
+                self._story = told | {"side": side.name, "is_right": self._is_right(told)}
+                self._say_story(self._story)
+                self._put_beside()
             self._go()
         elif "rays" in told:
             self._beside = told
@@ -366,8 +429,11 @@ class Studio:
             where = f" in {side.function}" if side.function else ""
             side.fail(f"{told['ended']}{where}", side.function)
             self._lost_pixel()
-            self._check_soon()
+            self._soon()
             self._go()
+        again = self._told_again
+        if side.trouble and again is not None and again["side"] == side.name:
+            self._cannot_tell(again["x"], again["y"], side, NO_PICTURE)
         self._say_state()
 
     def _on_failed(self, side: Side, told: dict[str, Any]) -> None:
@@ -380,14 +446,21 @@ class Studio:
             # What follows from the first is no news.
             trace = told.get("trace", "")
             side.fail(told["failed"] + (f"\n{trace}" if trace else ""), told.get("function", ""))
-        self._check_soon()
+        self._soon()
         self._go()
 
+    def _soon(self) -> None:
+        if self.verdicts is not None:
+            self.verdicts.soon()
+
     def _lost_pixel(self, why: str = "") -> None:
-        if self._wanted_pixel is not None:
+        if self._wanted_pixel is not None and self._asked is not None:
             x, y = self._wanted_pixel
-            self._wanted_pixel = self._asked = None
-            self._say("story", {"story": [x, y], "failed": why or "the process has ended"})
+            self._cannot_tell(x, y, self._asked, why or "the process has ended")
+
+    def _cannot_tell(self, x: int, y: int, side: Side, why: str) -> None:
+        self._wanted_pixel = self._asked = self._told_again = self._story = None
+        self._say_story({"story": [x, y], "side": side.name, "failed": why})
 
     def _on_alive(self, side: Side, told: dict[str, Any]) -> None:
         before = side.note
@@ -419,10 +492,18 @@ class Studio:
         side.note = ""
         side.version += 1
         side.shot = Shot(linear, there, told["samples"], told["seconds"], **more)
+        side.shown, side.small = side.job, False
         if told["complete"]:
-            side.reached = told["samples"]
+            side.reached, side.old = told["samples"], False
             side.shots.append(side.shot)
             self._compare()
+
+    def _on_preview(self, side: Side, told: dict[str, Any], arrays: list[Any]) -> None:
+        linear, there, *rest = arrays
+        more = dict(zip(told["more"], rest, strict=True))
+        side.version += 1
+        side.shot = Shot(linear, there, 1, told["seconds"], **more)
+        side.shown, side.small, side.old = side.job, True, False
 
     def _compare(self) -> None:
         """One's own picture with the reference, and with what it was before the last save."""
@@ -432,6 +513,7 @@ class Studio:
         if course is not None:
             other = self._alike(mine, course) or course
             self._differing = share_differing(deviations(mine, other))
+            self._compared = [mine.samples, other.samples]
             # Of as many samples as the reference has, some are the same.
             self._curve = [
                 (shot.seconds, shot.samples, rms(shot, course))
@@ -469,7 +551,8 @@ class Studio:
             self._reload()
         modules = [file.stem for file in changed if file != self.scene]
         if modules and self.mine is not None:
-            self._check([each for each in modules if each in COURSE])
+            if self.verdicts is not None and (known := [m for m in modules if m in COURSE]):
+                self.verdicts.check(known)
             called = {need.partition(".")[0] for need in self._needs}
             if any(each in called or each not in COURSE for each in modules):
                 self._save()
@@ -484,7 +567,15 @@ class Studio:
                     side.note = note
                     self._say_state()
                     self._go()
-        self._start_checks()
+        if self._moved is not None and monotonic() - self._moved > STILL:
+            self._stay()
+        if self.verdicts is not None:
+            idle = not any(side.goal or side.awaiting for side in self.sides)
+            first = self.verdicts.first
+            self.verdicts.start(idle and self._moved is None)
+            if self._waited and not first:
+                self._go()
+            self._waited = first
 
     def _gone(self, now: Iterable[Path]) -> list[Path]:
         """Files that were there and have been away for a while."""
@@ -509,117 +600,8 @@ class Studio:
             side.close()
         self._lost_pixel("the scene was saved meanwhile")
         self._begin(fresh=True)
-        self._say("functions", self._told_functions())
+        self._say("functions", self.functions())
         self._say_state()
-
-    # ---------------------------------------------------------------- checks
-
-    def _modules(self) -> list[str]:
-        """All modules, those of this scene first."""
-        called = {need.partition(".")[0] for need in self._needs}
-        return sorted(COURSE, key=lambda each: (each != self.module, each not in called))
-
-    def _check(self, modules: list[str]) -> None:
-        """Have modules checked, before those that wait."""
-        for each in modules:
-            self._functions.pop(each, None)
-        if self._checker is not None and self._under_check:
-            # It may have read the files as they were.
-            self._checker.close()
-            self._checking = ""
-            modules = [*modules, *(m for m in self._under_check if m not in modules)]
-            self._under_check = []
-        self._to_check = [*modules, *(each for each in self._to_check if each not in modules)]
-        self._say("functions", self._told_functions())
-
-    def _check_soon(self) -> None:
-        self._saved = min(self._saved, monotonic() - CHECKS_WAIT)
-
-    def _start_checks(self) -> None:
-        """Begin with what is to be checked, once the picture doesn't need the processors so badly."""
-        if not self._to_check or self._checker is None or monotonic() - self._saved < CHECKS_WAIT:
-            return
-        rest = (each for each in self._under_check if each not in self._to_check)
-        self._under_check = [*self._to_check, *rest]
-        self._to_check = []
-        self._checker.check(self._under_check)
-
-    def _on_check(self, told: dict[str, Any]) -> None:
-        if self._checker is None or told.pop("run") != self._checker.run:
-            return
-        if "checking" in told:
-            self._checking = told["checking"]
-        elif "module" in told:
-            self._functions[told["module"]] = told
-            self._checking = ""
-            if told["module"] in self._under_check:
-                self._under_check.remove(told["module"])
-            story = self._story
-            if story is not None and story["is_right"] != self._is_right(story):
-                self._story = story | {"is_right": not story["is_right"]}
-                self._say("story", self._story)
-        else:
-            for module in self._under_check:
-                self._functions[module] = {"trouble": "The checks ended before they came to it."}
-            self._checking, self._under_check = "", []
-        self._say("functions", self._told_functions())
-
-    def _told_functions(self) -> dict[str, Any]:
-        """The modules with their functions, for the page."""
-        called = {need.partition(".")[0] for need in self._needs}
-        waiting = {*self._to_check, *self._under_check}
-        modules = []
-        every: list[FunctionProgress] = []
-        for module in self._modules() if self.mine is not None else []:
-            known, here = self._functions.get(module, {}), module in called or module == self.module
-            functions = known.get("functions")
-            checking = module == self._checking or (
-                functions is None and here and module in waiting
-            )
-            if functions is None:
-                functions = [
-                    {
-                        "module": module,
-                        "name": name,
-                        "state": "not checked yet",
-                        "points": 0,
-                        "of": 10,
-                    }
-                    for name in COURSE[module]
-                ]
-            else:
-                every += [FunctionProgress(**each) for each in functions]
-            modules.append(
-                {
-                    "name": module,
-                    "here": here,
-                    "checking": checking,
-                    "trouble": known.get("trouble") or (self._hint(module) if here else ""),
-                    "functions": functions,
-                }
-            )
-        coming = next_one(every) if every else None
-        return {
-            "modules": modules,
-            "needs": self._needs,
-            "waiting": len(waiting),
-            "points": sum(one.points for one in every),
-            "of": sum(10 * len(names) for names in COURSE.values()),
-            "next": None if coming is None else f"{coming.module}.{coming.name}",
-            "where": None if coming is None else f"{coming.file}:{coming.line}",
-            "page": None if coming is None else coming.page,
-        }
-
-    def _hint(self, module: str) -> str:
-        """What is said of a module whose file was deleted or renamed, or of which the picture shows nothing."""
-        file = self.folder / f"{module}.py"
-        if not file.is_file():
-            return f"There is no {file}: none of it is yours."
-        if self._needs and not any(need.startswith(f"{module}.") for need in self._needs):
-            return (
-                "This picture calls none of them: what the checks say is all there is of them here."
-            )
-        return ""
 
     # ---------------------------------------------------------------- wishes of the page
 
@@ -630,7 +612,7 @@ class Studio:
             camera, turn + told["turn"], tilt + told["tilt"], zoom * told["zoom"]
         )
         self.values["camera", "eye"] = list(orbited(camera, *self._orbit))
-        self._begin()
+        self._follow()
         self._say_state()
 
     def _on_value(self, told: dict[str, Any]) -> None:
@@ -641,7 +623,7 @@ class Studio:
         if slider.choices:
             value = min(slider.choices, key=lambda each: abs(each - value))
         self.values[slider.path] = int(value) if isinstance(slider.value, int) else value
-        self._begin()
+        self._follow()
         self._say_state()
 
     def _on_reset(self, _told: dict[str, Any]) -> None:
@@ -659,8 +641,9 @@ class Studio:
         x, y = told["x"], told["y"]
         side = self.course if told.get("side") == "course" or self.mine is None else self.mine
         if not (0 <= x < width and 0 <= y < height):
+            self._cannot_tell(x, y, side, f"the picture has {width} x {height} pixels")
             return
-        without = "there is no picture that it could be told of"
+        without = NO_PICTURE
         if side.effects == ENGINE:
             without = NO_RAYS
         self._told_again = None
@@ -669,7 +652,7 @@ class Studio:
         if self._asked_early is not None:
             return
         if side.worker is None or side.trouble or side.effects == ENGINE:
-            self._say("story", {"story": [x, y], "failed": without})
+            self._cannot_tell(x, y, side, without)
             return
         self._wanted_pixel, self._beside, self._story = (x, y), None, None
         self._asked = side
@@ -681,9 +664,16 @@ class Studio:
 
     def _is_right(self, story: dict[str, Any]) -> bool:
         """Whether the function whose rays are others than the course's is right by the checks all the same."""
-        module, _, name = story["rays"].get("function", "").partition(".")
-        known = self._functions.get(module, {}).get("functions", ())
-        return any(each["name"] == name and each["state"] == "right" for each in known)
+        function = story["rays"].get("function", "")
+        return self.verdicts is not None and self.verdicts.is_right(function)
+
+    def _on_check(self, told: dict[str, Any]) -> None:
+        assert self.verdicts is not None
+        self.verdicts.on_check(told)
+        story = self._story
+        if story is not None and story["is_right"] != self._is_right(story):
+            self._story = story | {"is_right": not story["is_right"]}
+            self._say_story(self._story)
 
     def _put_beside(self) -> None:
         """Have one's own story told beside the course's rays, once both are there."""
@@ -706,6 +696,10 @@ class Studio:
         modules = {need.partition(".")[0] for need in self._needs}
         return sliders(self.loaded, [m for m in COURSE if m in modules or m == self.module])
 
+    def functions(self) -> dict[str, Any]:
+        """How far one's functions are; see ``Verdicts.told``."""
+        return {} if self.verdicts is None else self.verdicts.told()
+
     def state(self) -> dict[str, Any]:
         """All but the pictures, the functions and the story."""
         return {
@@ -719,6 +713,8 @@ class Studio:
             "curve_before": self._curve_before,
             "differing": self._differing,
             "changed": self._changed,
+            "saved": self.mine is not None and self.mine.before is not None,
+            "compared": self._compared,
             "sliders": [
                 each.to_dict() | {"now": self.values.get(each.path, each.value)}
                 for each in self._sliders()
@@ -731,14 +727,17 @@ class Studio:
             "needs": self._needs,
         }
 
-    @staticmethod
-    def _told(side: Side) -> dict[str, Any]:
+    def _told(self, side: Side) -> dict[str, Any]:
         return {
             "job": side.job,
+            "shown": side.shown,
+            "old": side.old,
+            "small": side.small,
+            "most": self._most(side),
             "version": side.version,
             "samples": side.reached,
             "seconds": side.shot.seconds if side.shot is not None else 0,
-            "rendering": bool(side.goal) or side.awaiting,
+            "rendering": bool(side.goal) or side.awaiting or self._moved is not None,
             "trouble": side.trouble,
             "function": side.function,
             "note": side.note,

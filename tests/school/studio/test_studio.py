@@ -122,14 +122,14 @@ def test_what_a_function_prints_is_shown(studio: Studio, work: Path) -> None:
 
 def test_checks_follow_a_save(studio: Studio, work: Path) -> None:
     def state() -> str:
-        functions = studio._told_functions()["modules"]
+        functions = studio.functions()["modules"]
         every = {f["name"]: f["state"] for module in functions for f in module["functions"]}
         return str(every["point_on_sphere"])
 
     until(lambda: state() == "to do")
     write(work, WRONG)
     until(lambda: state() == "wrong")
-    told = studio._told_functions()
+    told = studio.functions()
     assert told["next"] == "soft_shadows.point_on_sphere"
     file, _, line = told["where"].rpartition(":")
     rows = Path(file).read_text(encoding="utf-8").splitlines()
@@ -221,7 +221,7 @@ def test_a_pixel_has_the_courses_rays_beside_ones_own(studio: Studio, work: Path
     # A right function may turn the numbers another way.
     write(work, RIGHT.replace("2 * u[0]", "2 * u[1]").replace("pi * u[1]", "pi * u[0]"))
     until(lambda: whole(studio) and studio.state()["differing"] == 0)
-    until(lambda: studio._functions.get("soft_shadows"))
+    until(lambda: studio.verdicts is not None and studio.verdicts.functions.get("soft_shadows"))
     story = story_of(studio, 20, 40)
     assert story["rays"]["function"] == name
     assert story["is_right"]
@@ -262,7 +262,7 @@ def test_nothing_runs_on_when_it_is_closed(work: Path) -> None:
 
 def everything(studio: Studio) -> str:
     """What is known of the functions."""
-    return str(studio._told_functions())
+    return str(studio.functions())
 
 
 def test_a_file_that_is_deleted_or_renamed_is_noticed(studio: Studio, work: Path) -> None:
@@ -335,7 +335,10 @@ def test_a_save_while_a_pixel_is_told_has_it_told_again(studio: Studio, work: Pa
     studio.ask("pixel", x=20, y=40)
     until(lambda: studio._wanted_pixel)
     write(work, RIGHT)
-    story = until(lambda: next((d for n, d in iter(events.get, None) if n == "story"), None))
+    stories = (told for name, told in iter(events.get, None) if name == "story")
+    # Until it is told again, the page says that it is.
+    assert next(stories)["old"] == "You have saved a file"
+    story = next(stories)
     assert story["story"] == [20, 40]
     assert story["job"] == mine(studio)["job"]
     until(lambda: whole(studio) and studio.state()["differing"] == 0)
