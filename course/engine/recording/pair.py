@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from course.engine.core.types import Floats64
+from course.engine.recording.recorder import RESOLVE, WEIGHTS
 from course.engine.recording.scenery import rounded
 from course.engine.recording.story import Story
 from course.engine.recording.view import KINDS, MOST_PATHS, rays_data, view_data
@@ -19,7 +20,7 @@ MOST_FUNCTIONS = 4
 
 _SAMPLE, _DEPTH, _KIND, _START, _END, _AIM, _CALLS = 0, 2, 3, 4, 5, 7, 9
 
-_OF_COLOURS = ("supersampling.gaussian_weights", "supersampling.resolve")
+_OF_COLOURS = (WEIGHTS, RESOLVE)
 """What is asked for the colours of pixels."""
 
 _PATTERNS = ("supersampling", "quasi_monte_carlo")

@@ -62,13 +62,21 @@ penumbra.rays = function (root, data) {
   const east = unit(cross(up, Math.abs(up[0]) > 0.5 ? [0, 0, 1] : [1, 0, 0]));
   const north = cross(up, east);
   const first = unit(sub(data.camera.eye, focus));
-  const home = { turn: Math.atan2(dot(first, north), dot(first, east)) + 0.75, tilt: 0.4, distance: 2.6 * extent, focus };
-  const view = { ...home };
+  const turned = { turn: Math.atan2(dot(first, north), dot(first, east)) + 0.75, tilt: 0.4 };
   const shown = { kinds: data.kinds.map(() => true), depth: deepest, surfaces: 1, sample: -1, who: -1 };
   // What can be looked at from near: a lamp or the lens by its size, and where the camera's rays end.
   const near = [["all", focus, 2.6 * extent]];
   const firsts = sized.filter((each) => each[DEPTH] === 0 && each[KIND] === 0).map((each) => each[END]);
-  if (firsts.length) near.push(["what is hit", firsts[Math.floor(firsts.length / 2)], 0.5 * extent]);
+  const home = { ...turned, distance: 2.6 * extent, focus };
+  if (firsts.length) {
+    const hit = firsts[Math.floor(firsts.length / 2)];
+    near.push(["what is hit", hit, 0.5 * extent]);
+    // The first view is of the pixel's neighbourhood: a far lamp, or rays that fly on over a plain, would leave it small.
+    const close = 1.9 * Math.hypot(...sub(hit, data.camera.eye));
+    if (close < home.distance) Object.assign(home, { focus: mix(hit, data.camera.eye, 0.25), distance: close });
+    near.unshift(["the pixel", home.focus, home.distance]);
+  }
+  const view = { ...home };
   for (const lamp of data.lamps) {
     if (lamp.radius) near.push([lamp.name, lamp.at, 5 * lamp.radius]);
     else if (lamp.around) near.push([lamp.name, mix(lamp.around[0], lamp.around[2], 0.5), 2.2 * Math.hypot(...sub(lamp.around[0], lamp.around[2]))]);

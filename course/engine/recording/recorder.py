@@ -21,6 +21,9 @@ from course.engine.functions.contracts import contract
 from course.engine.recording.asking import Asking
 from course.engine.terms.shafts.stage import UNKNOWN
 
+WEIGHTS, RESOLVE = "supersampling.gaussian_weights", "supersampling.resolve"
+"""The film asks these, for all samples of a tile."""
+
 LARGEST_ARGUMENT = 16
 """Numbers of an argument that isn't one of each ray's; larger ones, such as pictures, are told by their shape."""
 
@@ -261,9 +264,11 @@ class Recorder:
         """The function "module.function" was called."""
         if self.asking is not None and self.asking.muted:
             return
-        if name == "supersampling.gaussian_weights":
+        if name == WEIGHTS:
             self.weights = result
-        if (ids := self._columns(name, arguments)) is None:
+        # The film's arrays may share memory with what is known of other rays.
+        ids = None if name in (WEIGHTS, RESOLVE) else self._columns(name, arguments)
+        if ids is None:
             # A pattern of samples, or a part of what is known: it isn't said which.
             self.asked[name] = self.asked.get(name, 0) + 1
             return

@@ -11,6 +11,7 @@ import numpy as np
 
 from course.engine.core.types import Floats64
 from course.engine.recording.developed import Step, developed
+from course.engine.recording.recorder import RESOLVE, WEIGHTS
 from course.engine.recording.recording import Recording
 from course.engine.recording.segments import ENVIRONMENT, Segment
 
@@ -34,10 +35,6 @@ OTHER = 1e-3
 
 MOST_NAMES = 3
 """Objects that are named in a line."""
-
-
-WEIGHTS, RESOLVE = "supersampling.gaussian_weights", "supersampling.resolve"
-"""What makes a pixel's colour of its samples."""
 
 
 @dataclass
@@ -222,7 +219,7 @@ class Story:
                 f"{name} was asked {_some(count, 'once', f'{count} times')}, for many rays at once"
             )
             for name, count in recording.asked.items()
-            if name not in told
+            if count and name not in told
         ]
         if any(one.calls for one in self.segments):
             frame = recording.scene.compiled.frame

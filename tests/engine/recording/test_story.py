@@ -129,6 +129,25 @@ def test_the_tree_is_short_and_names_functions() -> None:
     assert len(told) < 40
 
 
+@pytest.mark.parametrize("effects", ["solutions", "mine"])
+def test_the_film_asks_once_a_pass_whose_functions_it_ever_asks(
+    effects: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of one's own it had been told that they were asked 0 times."""
+    copied = tmp_path / "assignments"
+    copied.mkdir()
+    for name in ("supersampling", "soft_shadows"):
+        shutil.copy(PROJECT / "solutions" / f"{name}.py", copied)
+    monkeypatch.chdir(tmp_path)
+    told = pixel(
+        PROJECT / "scenes/soft_shadows.yaml", 30, 30, spp=48, size=(64, 48), effects=effects
+    )
+    asked = [line for line in texts(told.tree) if line.startswith("supersampling.")]
+    # A pass has 16 samples of each pixel.
+    for name in ("gaussian_weights", "resolve"):
+        assert f"supersampling.{name} was asked 3 times, for many rays at once" in asked
+
+
 def test_shares_of_all_sources_are_the_whole() -> None:
     story = pixel(PROJECT / "scenes" / "path_tracing.yaml", 50, 30, spp=16, size=(96, 64))
     assert sum(story.sources.values()) == pytest.approx(1, abs=1e-6)
