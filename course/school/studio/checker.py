@@ -71,6 +71,9 @@ class Checker:
             process.stdin.close()
         arguments = process, self.run
         threading.Thread(target=self._listen, args=arguments, daemon=True).start()
+        if nice:
+            # A save ends these checks, and wants others at once.
+            self.prepare()
 
     def stop(self) -> None:
         """End what is being checked, with the workers that it has started."""

@@ -731,7 +731,8 @@ class Studio:
         return {
             "job": side.job,
             "shown": side.shown,
-            "old": side.old,
+            # One that follows the view is a moment late.
+            "old": side.old and not (side.small and self._moved is not None),
             "small": side.small,
             "most": self._most(side),
             "version": side.version,

@@ -52,7 +52,7 @@ class Verdicts:
         self._running: list[str] = []
         self._saved: set[str] = set()
         self._checking = ""
-        self._since = monotonic()
+        self._since = self._saved_at = monotonic()
         self._checker = Checker(folder, event)
 
     @property
@@ -64,7 +64,7 @@ class Verdicts:
     @property
     def first(self) -> bool:
         """Whether pictures wait: a file was saved, and what the scene calls of it isn't checked yet."""
-        return bool(self._saved) and monotonic() - self._since < PICTURES_WAIT
+        return bool(self._saved & self.here) and monotonic() - self._saved_at < PICTURES_WAIT
 
     def close(self) -> None:
         """End what is being checked."""
@@ -87,7 +87,7 @@ class Verdicts:
         again = [*modules, *self._running, *self._waiting]
         self._waiting, self._running = list(dict.fromkeys(again)), []
         self._saved |= set(modules)
-        self._since = monotonic()
+        self._since = self._saved_at = monotonic()
         self._changed()
 
     def soon(self) -> None:
@@ -148,7 +148,7 @@ class Verdicts:
             found = known.get("functions", [])
             every += [FunctionProgress(**each) for each in found]
             checking = module == self._checking or (
-                module in here and module in waiting and not found
+                module in here and module in waiting and (not found or "part" in known)
             )
             left = "checking" if checking else "not checked yet"
             by_name = {each["name"]: each for each in found}

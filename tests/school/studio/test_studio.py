@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.school.studio import sides
+from course.school.studio import sides, verdicts
 from course.school.studio import studio as whole_studio
 from course.school.studio.studio import MOST, Studio
 from course.school.studio.worker import RenderWorker
@@ -138,12 +138,110 @@ def test_checks_follow_a_save(studio: Studio, work: Path) -> None:
     until(lambda: state() == "right")
 
 
+def states(events: Any, last: Any) -> list[dict[str, Any]]:
+    """What a page is told of the pictures until one thing is."""
+    told: list[dict[str, Any]] = []
+    while not told or not last(told[-1]):
+        name, data = events.get(timeout=280)
+        told += [data] if name == "state" else []
+    return told
+
+
+def test_what_belongs_to_the_view_before_says_so(studio: Studio) -> None:
+    until(lambda: whole(studio))
+    assert studio.picture("difference") is not None
+    events = studio.listen()
+    studio.ask("orbit", turn=0.5, tilt=0.1, zoom=1.0)
+
+    def done(told: dict[str, Any]) -> bool:
+        sides = told["sides"].values()
+        return bool(told["moved"]) and not any(s["old"] or s["rendering"] for s in sides)
+
+    told = [each for each in states(events, done) if each["moved"]]
+    # A small picture of the new view comes first; the reference and the difference are of the one before.
+    small = [each for each in told if each["sides"]["mine"]["small"]]
+    assert small
+    assert not small[-1]["sides"]["mine"]["old"]
+    assert any(each["sides"]["mine"]["shown"] == told[-1]["sides"]["mine"]["job"] for each in small)
+    for each in told:
+        both = each["sides"].values()
+        assert each["differing"] is None or not any(s["old"] or s["small"] for s in both)
+    assert all(each["sides"]["course"]["old"] for each in small)
+    assert told[-1]["differing"] == 0
+    # The small picture is of the same view: its means over a sixth are those of the whole.
+    assert studio.picture("difference") is not None
+    assert mine(studio)["samples"] == mine(studio)["most"] == DONE
+
+
+def test_the_story_of_a_pixel_belongs_to_the_view_that_is_shown(
+    studio: Studio, work: Path
+) -> None:
+    write(work, RIGHT)
+    until(lambda: mine(studio)["yours"] and whole(studio))
+    for side in ("mine", "course"):
+        story = story_of(studio, 20, 40, side)
+        events = studio.listen()
+        studio.ask("orbit", turn=0.4, tilt=0.2, zoom=1.0)
+        stories = (told for name, told in iter(events.get, None) if name == "story")
+        assert "old" not in next(stories)
+        assert next(stories)["old"] == "The view has changed"
+        # Then comes that of the new view.
+        again = next(stories)
+        studio.forget(events)
+        assert "old" not in again
+        assert again["side"] == side
+        assert again["job"] > story["job"]
+        assert again["rays"]["segments"] != story["rays"]["segments"]
+        until(lambda: whole(studio))
+
+
+def test_a_story_that_can_be_told_no_more_is_gone(studio: Studio, work: Path) -> None:
+    write(work, RIGHT)
+    until(lambda: mine(studio)["yours"] and whole(studio))
+    story_of(studio, 20, 40)
+    events = studio.listen()
+    write(work, "return ((\n")
+    stories = (told for name, told in iter(events.get, None) if name == "story")
+    last = next(told for told in stories if "failed" in told)
+    assert "rays" not in last
+    studio.forget(events)
+
+
+def test_the_verdict_of_what_the_scene_calls_comes_before_the_picture(
+    studio: Studio, work: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # How long it takes decides nothing here.
+    monkeypatch.setattr(verdicts, "PICTURES_WAIT", 1e9)
+    until(lambda: whole(studio))
+    events = studio.listen()
+    write(work, WRONG)
+    seen: list[tuple[int, str, str]] = []
+    samples, job = DONE, mine(studio)["job"]
+    while not seen or seen[-1][1] != "wrong":
+        name, told = events.get(timeout=280)
+        if name == "state" and told["sides"]["mine"]["job"] > job:
+            samples = told["sides"]["mine"]["samples"]
+            assert samples <= 1
+        if name == "functions":
+            every = {
+                f"{f['module']}.{f['name']}": f["state"]
+                for module in told["modules"]
+                for f in module["functions"]
+            }
+            states = every["soft_shadows.point_on_sphere"], every["soft_shadows.light_grid"]
+            seen.append((samples, *states))
+    # The rest of the module is checked after it.
+    assert seen[-1][2] == "checking"
+    until(lambda: mine(studio)["samples"] == DONE)
+
+
 def test_a_slider_changes_both_pictures_and_nothing_else_can_be_changed(studio: Studio) -> None:
     until(lambda: whole(studio))
     before, job = linear(studio).copy(), mine(studio)["job"]
     studio.ask("value", path=["lights", 0, "intensity"], value=3)
     studio.ask("value", path=["lights", 0, "radius"], value=0.1)
-    until(lambda: mine(studio)["job"] == job + 1 and whole(studio))
+    until(lambda: mine(studio)["job"] == job + 1 and mine(studio)["samples"] and whole(studio))
+    until(lambda: course(studio)["samples"] == 4 * DONE and not course(studio)["old"])
     assert np.abs(linear(studio) - before).max() > 0.05
     np.testing.assert_allclose(linear(studio).mean(), linear(studio, "course").mean(), rtol=0.02)
     now = {tuple(each["path"]): each["now"] for each in studio.state()["sliders"]}
@@ -189,6 +287,7 @@ def story_of(studio: Studio, x: int, y: int, side: str = "mine") -> dict[str, An
         if (
             name == "story"
             and told is not before
+            and told["side"] == side
             and (side != "mine" or "beside" in told or "failed" in told)
         ):
             studio.forget(events)
