@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+from course.engine.functions.further import with_further
+
 
 def _named(functions: dict[str, str]) -> dict[str, tuple[str, ...]]:
     return {module: tuple(names.split()) for module, names in functions.items()}
@@ -41,7 +43,9 @@ FURTHER = _named(
         "film": "expose luminance photographic encode_srgb convert_gamut quantize",
     }
 )
-"""The other modules. The renderer calls the functions of both that are listed in ``signatures``."""
+FURTHER = with_further(FURTHER)
+"""The other modules, those with a file of their own in ``further/`` among them. The renderer calls the functions of
+both that are listed in ``signatures``."""
 
 COURSE = MODULES | FURTHER
 """All modules of the course."""

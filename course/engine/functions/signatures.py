@@ -12,6 +12,8 @@ with ``below:K`` are at least 0 and less than K, a size or a number; an argument
 length of the last.
 """
 
+from course.engine.functions.further import further_contracts
+
 CONTRACTS = {
     "supersampling.regular": "k, n -> the points: float32 2 n k*k",
     "supersampling.random": "k, n, rng -> the points: float32 2 n k*k",
@@ -106,5 +108,5 @@ CONTRACTS = {
     "film.encode_srgb": "linear: 3 N -> the encoded colours: 3 N",
     "film.convert_gamut": "rgb: 3 N, source: 2 4, target: 2 4 -> the colours: 3 N",
     "film.quantize": "encoded: 3 N, u: 3 N -> the codes: whole 3 N below:256",
-}
+} | further_contracts()
 """Every function that the renderer calls, "module.function", and its contract."""

@@ -1,0 +1,41 @@
+"""Modules of the course that say all of themselves in one file here: a new one touches no list.
+
+A file is called as its module. It has
+
+- ``AFTER``: the module that it is taught after, of ``course.engine.functions.modules``;
+- ``FUNCTIONS``: names of its functions, in the order in which they are checked and shown;
+- ``CONTRACTS``: of those that the renderer calls, by their names, as ``course.engine.functions.signatures`` has them;
+- ``stand_ins()``: of these what stands in for them and what a picture then looks like, as ``stand_ins.py`` has them. A
+  function, for command lines read names without NumPy.
+"""
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+
+def further() -> dict[str, Any]:
+    """The files by the names of their modules, in alphabetical order."""
+    names = sorted(file.stem for file in Path(__file__).parent.glob("[!_]*.py"))
+    return {name: import_module(f"{__name__}.{name}") for name in names}
+
+
+def with_further(listed: dict[str, tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
+    """Modules and their functions, with each module of this folder behind the one that it is taught after."""
+    order = list(listed)
+    found = further()
+    for name, module in found.items():
+        order.insert(order.index(module.AFTER) + 1, name)
+    return {name: listed.get(name) or tuple(found[name].FUNCTIONS.split()) for name in order}
+
+
+def further_contracts() -> dict[str, str]:
+    """Contracts by "module.function"."""
+    found = further().items()
+    return {f"{name}.{each}": text for name, m in found for each, text in m.CONTRACTS.items()}
+
+
+def further_stand_ins() -> dict[str, Any]:
+    """Stand-ins by "module.function"."""
+    found = further().items()
+    return {f"{name}.{each}": stand for name, m in found for each, stand in m.stand_ins().items()}

@@ -1,0 +1,94 @@
+"""Plain Python, one ray at a time."""
+
+import math
+
+import numpy as np
+
+
+def transmittance(sigma_t, distance):
+    """One number at a time."""
+    _check(sigma_t=(sigma_t, 3), distance=(distance, "N"))
+    _check_colors(sigma_t=sigma_t)
+    result = np.empty((3, len(distance)), distance.dtype)
+    for i in range(len(distance)):
+        for k in range(3):
+            result[k, i] = math.exp(-float(sigma_t[k]) * float(distance[i]))
+    return result
+
+
+def free_flight(sigma_t, weights, u):
+    """The channel by subtraction of weights."""
+    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
+    _check_colors(sigma_t=sigma_t, weights=weights)
+    result = np.empty(u.shape[1], u.dtype)
+    for i in range(u.shape[1]):
+        channel, rest = 0, float(u[0, i])
+        while channel < 2 and rest >= weights[channel]:
+            rest -= float(weights[channel])
+            channel += 1
+        sigma = float(sigma_t[channel])
+        result[i] = -math.log(1 - float(u[1, i])) / sigma if sigma > 0 else math.inf
+    return result
+
+
+def free_flight_pdf(sigma_t, weights, distance):
+    """A sum of three."""
+    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
+    _check_colors(sigma_t=sigma_t, weights=weights)
+    result = np.zeros(len(distance), distance.dtype)
+    for i in range(len(distance)):
+        found = 0.0
+        for w, s in zip(weights, sigma_t, strict=True):
+            found += float(w) * float(s) * math.exp(-float(s) * float(distance[i]))
+        result[i] = found
+    return result
+
+
+def henyey_greenstein(cos, g):
+    """As the formula is written."""
+    _check(cos=(cos, "N"))
+    _check_g(g)
+    result = np.empty(len(cos), cos.dtype)
+    for i in range(len(cos)):
+        result[i] = (1 - g * g) / (4 * math.pi * (1 + g * g - 2 * g * float(cos[i])) ** 1.5)
+    return result
+
+
+def delta_tracking(grid, majorant, origin, direction, limit, u):
+    """Each ray to its end."""
+    _check_rays(origin, direction, limit, u, 2, "K", "N")
+    _check_grid(grid, majorant)
+    distance = np.zeros(len(limit), np.result_type(origin, direction, limit, u))
+    collided = np.zeros(len(limit), bool)
+    for i in range(len(limit)):
+        t = 0.0
+        for k in range(u.shape[1] if limit[i] > 0 else 0):
+            t -= math.log(1 - float(u[0, k, i])) / majorant
+            if t >= limit[i]:
+                t = limit[i]
+                break
+            place = origin[:, i].astype(float) + t * direction[:, i]
+            if u[1, k, i] < density_at(grid, place[:, None])[0] / majorant:
+                collided[i] = True
+                break
+        distance[i] = t
+    return distance, collided
+
+
+def ratio_tracking(grid, majorant, origin, direction, limit, u):
+    """Each ray to its end."""
+    _check_rays(origin, direction, limit, u, "K", "N")
+    _check_grid(grid, majorant)
+    dtype = np.result_type(origin, direction, limit, u)
+    share, distance = np.ones(len(limit), dtype), np.zeros(len(limit), dtype)
+    for i in range(len(limit)):
+        t, left = 0.0, 1.0
+        for k in range(len(u) if limit[i] > 0 else 0):
+            t -= math.log(1 - float(u[k, i])) / majorant
+            if t >= limit[i]:
+                t = limit[i]
+                break
+            place = origin[:, i].astype(float) + t * direction[:, i]
+            left *= 1 - density_at(grid, place[:, None])[0] / majorant
+        share[i], distance[i] = left, t
+    return share, distance
