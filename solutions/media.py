@@ -153,7 +153,7 @@ def delta_tracking(grid, majorant, origin, direction, limit, u):
 
     Parameters
     ----------
-    grid : (X, Y, Z) floating >= 0 densities, as `density_at` reads them [1/distance]
+    grid : (X, Y, Z) floating >= 0 densities, as `_density_at` reads them [1/distance]
     majorant : float > 0, no density is larger
     origin, direction : (3, N) floating, where rays start and what they go for a distance of 1; of any length
     limit : (N,) floating >= 0, the distance where the medium ends
@@ -177,7 +177,7 @@ def delta_tracking(grid, majorant, origin, direction, limit, u):
     for step, real in zip(*u, strict=True):
         distance = np.where(going, distance - np.log1p(-step) / majorant, distance)
         going &= distance < limit
-        collided |= going & (real * majorant < density_at(grid, origin + distance * direction))
+        collided |= going & (real * majorant < _density_at(grid, origin + distance * direction))
         going &= ~collided
     return np.minimum(distance, limit).astype(dtype), collided
     ### END SOLUTION
@@ -209,7 +209,7 @@ def ratio_tracking(grid, majorant, origin, direction, limit, u):
     distance, share = np.zeros(len(limit)), np.ones(len(limit))
     for step in u:
         distance = np.where(distance < limit, distance - np.log1p(-step) / majorant, distance)
-        lost = density_at(grid, origin + np.minimum(distance, limit) * direction) / majorant
+        lost = _density_at(grid, origin + np.minimum(distance, limit) * direction) / majorant
         share = np.where(distance < limit, share * (1 - lost), share)
     return share.astype(dtype), np.minimum(distance, limit).astype(dtype)
     ### END SOLUTION
@@ -282,12 +282,12 @@ def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
     ### BEGIN SOLUTION
     dtype = np.result_type(distance, beyond, phase, density)
     way = distance.astype(np.float64) + beyond
-    left = transmittance(sigma_t, way) * np.asarray(sigma_s, np.float64)[:, None]
+    left = np.exp(-np.outer(sigma_t, way)) * np.asarray(sigma_s, np.float64)[:, None]
     return (left * (phase.astype(np.float64) / density)).astype(dtype)
     ### END SOLUTION
 
 
-def density_at(grid, points):
+def _density_at(grid, points):
     """Densities (N,) of a grid (X, Y, Z) at points (3, N): its cells fill the cube from 0 to 1, and each value is in
     the middle of its cell. Between them it is trilinear, and beyond the outermost as there. Nothing to write here.
     """

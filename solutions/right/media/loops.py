@@ -68,7 +68,7 @@ def delta_tracking(grid, majorant, origin, direction, limit, u):
                 t = limit[i]
                 break
             place = origin[:, i].astype(float) + t * direction[:, i]
-            if u[1, k, i] < density_at(grid, place[:, None])[0] / majorant:
+            if u[1, k, i] < _density_at(grid, place[:, None])[0] / majorant:
                 collided[i] = True
                 break
         distance[i] = t
@@ -89,6 +89,6 @@ def ratio_tracking(grid, majorant, origin, direction, limit, u):
                 t = limit[i]
                 break
             place = origin[:, i].astype(float) + t * direction[:, i]
-            left *= 1 - density_at(grid, place[:, None])[0] / majorant
+            left *= 1 - _density_at(grid, place[:, None])[0] / majorant
         share[i], distance[i] = left, t
     return share, distance
