@@ -153,7 +153,7 @@ def delta_tracking(grid, majorant, origin, direction, limit, u):
 
     Parameters
     ----------
-    grid : (X, Y, Z) floating >= 0 densities, as `_density_at` reads them [1/distance]
+    grid : (X, Y, Z) floating >= 0 densities, from cell to cell of the unit cube; `density` reads them [1/distance]
     majorant : float > 0, no density is larger
     origin, direction : (3, N) floating, where rays start and what they go for a distance of 1; of any length
     limit : (N,) floating >= 0, the distance where the medium ends
@@ -169,15 +169,20 @@ def delta_tracking(grid, majorant, origin, direction, limit, u):
     """
     _check_rays(origin, direction, limit, u, 2, "K", "N")
     _check_grid(grid, majorant)
+
+    def density(distance):
+        # At a distance (N,) along each ray.
+        return _density_at(grid, origin + distance * direction)
+
     ### BEGIN SOLUTION
     dtype = np.result_type(origin, direction, limit, u)
-    origin, direction, u = (each.astype(np.float64) for each in (origin, direction, u))
+    u = u.astype(np.float64)
     distance, collided = np.zeros(len(limit)), np.zeros(len(limit), bool)
     going = distance < limit
     for step, real in zip(*u, strict=True):
         distance = np.where(going, distance - np.log1p(-step) / majorant, distance)
         going &= distance < limit
-        collided |= going & (real * majorant < _density_at(grid, origin + distance * direction))
+        collided |= going & (real * majorant < density(distance))
         going &= ~collided
     return np.minimum(distance, limit).astype(dtype), collided
     ### END SOLUTION
@@ -203,13 +208,18 @@ def ratio_tracking(grid, majorant, origin, direction, limit, u):
     """
     _check_rays(origin, direction, limit, u, "K", "N")
     _check_grid(grid, majorant)
+
+    def density(distance):
+        # At a distance (N,) along each ray.
+        return _density_at(grid, origin + distance * direction)
+
     ### BEGIN SOLUTION
     dtype = np.result_type(origin, direction, limit, u)
-    origin, direction, u = (each.astype(np.float64) for each in (origin, direction, u))
+    u = u.astype(np.float64)
     distance, share = np.zeros(len(limit)), np.ones(len(limit))
     for step in u:
         distance = np.where(distance < limit, distance - np.log1p(-step) / majorant, distance)
-        lost = _density_at(grid, origin + np.minimum(distance, limit) * direction) / majorant
+        lost = density(np.minimum(distance, limit)) / majorant
         share = np.where(distance < limit, share * (1 - lost), share)
     return share.astype(dtype), np.minimum(distance, limit).astype(dtype)
     ### END SOLUTION
@@ -289,7 +299,7 @@ def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
 
 def _density_at(grid, points):
     """Densities (N,) of a grid (X, Y, Z) at points (3, N): its cells fill the cube from 0 to 1, and each value is in
-    the middle of its cell. Between them it is trilinear, and beyond the outermost as there. Nothing to write here.
+    the middle of its cell. Between them it is trilinear, and beyond the outermost as there.
     """
     size = np.array(grid.shape)[:, None]
     place = np.clip(points * size - 0.5, 0, size - 1)
