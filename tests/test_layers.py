@@ -35,6 +35,7 @@ FLOORS = {
         {"scattering"},
         {"environments", "lights"},
         {"paths", "shafts", "world"},
+        {"media"},
         {"plan"},
     ],
     "course.school": [{"grading"}, {"quizzes", "studio"}],

@@ -52,6 +52,7 @@ MAY_DIFFER = {
     "denoising": r"film\.denoise\..*",
     "film": r"film\.(tone\..*|gamut|dither)",
     "path_tracing": r"integrator\.type",
+    "media": r"media\..*",
 }
 
 # What the scenes of further modules call; the six core ones choose among theirs.
@@ -71,6 +72,7 @@ CALLS = {
     "film": "convert_gamut encode_srgb photographic quantize",
     "many_lights": "light_tree power_choice tree_choice",
     "path_tracing": "diffuse_bounce russian_roulette throughput",
+    "media": "free_flight free_flight_pdf henyey_greenstein sample_henyey_greenstein transmittance",
 }
 
 

@@ -83,6 +83,9 @@ def plan(
             integrator = CombiningIntegrator(
                 **known, lamps_and_lobes=both, lamps=integrator.emission
             )
+    for wrap in world.wraps:
+        further += wrap.numbers(paths is not None)
+        integrator = wrap.around(integrator, max_depth)
     # Of a choice among lights the numbers are its own, and no light's.
     drawing = world if world.choice is None else replace(world, lights=())
     return integrator, plan_dimensions(drawing, camera, rough, further)

@@ -1,8 +1,10 @@
 """The compiled scene, with the parts that only some scenes have."""
 
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from course.engine.core.camera import Lens
+from course.engine.core.integrator import Integrator
 from course.engine.core.scene import World
 from course.engine.core.types import Functions, Mask
 from course.engine.terms.environments.sky import SkySampling
@@ -32,6 +34,16 @@ class Paths:
     together: bool
 
 
+class Wrap(Protocol):
+    """A term around the whole integrator, such as fog between surfaces: plans know no more of it than this."""
+
+    def numbers(self, paths: bool) -> list[tuple[str, int]]:
+        """Names and widths of what it draws at each depth, in paths or in the distribution ray tracer."""
+
+    def around(self, integrator: Integrator, max_depth: int) -> Integrator:
+        """The integrator with the term; ``max_depth`` is the scene's, though its surfaces send no ray on."""
+
+
 @dataclass(frozen=True)
 class FullWorld(World):
     """The compiled scene, with the parts that only some scenes have.
@@ -48,6 +60,7 @@ class FullWorld(World):
     keeps : true if directions that point into the surface are kept
     choice : chooses one light for each hit; None if all lights send light to all hits
     combining : lamps and lobes that are sampled together; None where there are none
+    wraps : terms around the integrator
     """
 
     skipped_lights: dict[str, str] = field(default_factory=dict)
@@ -60,3 +73,4 @@ class FullWorld(World):
     choice: LightChoice | None = None
     microfacets: tuple[Microfacets, ...] = ()
     combining: Combining | None = None
+    wraps: tuple[Wrap, ...] = ()

@@ -1170,6 +1170,58 @@ class IntegratorDescription(Map, frozen=True, kw_only=True):
     ] = 0.0
 
 
+class DensityNoise(Map, frozen=True, kw_only=True):
+    """Densities by Perlin's noise: clouds of fog with clear air between them."""
+
+    scale: Annotated[
+        float, about("Grains along one unit of the scene.", "1/world unit", gt=0, le=1e4)
+    ] = 1.0
+    clear: Annotated[float, about("Share of the noise's range that is clear air.", ge=0, lt=1)] = (
+        0.5
+    )
+    cells: Annotated[
+        int, about("Cells of the grid along the longest edge of the box.", ge=2, le=256)
+    ] = 64
+
+
+class MediumDescription(Map, frozen=True, kw_only=True):
+    """Fog, smoke or dust: what fills space between surfaces, and glass that lies in it too."""
+
+    extinction: Annotated[
+        Color,
+        about(
+            "What is lost on a unit of length: light fades by exp(-extinction * length). With a grid or noise one"
+            " number, which densities multiply.",
+            "1/world unit",
+        ),
+    ]
+    albedo: Annotated[Reflectance, about("Share of what is lost that is scattered.")] = 1.0
+    g: Annotated[
+        float,
+        about(
+            "Mean cosine of the angle between light before and after: above 0 it goes on forwards, below 0 it turns"
+            " back, at 0 all directions are alike.",
+            ge=-0.99,
+            le=0.99,
+        ),
+    ] = 0.0
+    box: Annotated[
+        tuple[Vector, Vector] | None,
+        about(
+            "The lowest and the highest corner of what it fills; null for the whole scene and beyond.",
+            "world unit",
+        ),
+    ] = None
+    grid: Annotated[
+        str | None,
+        about(
+            "File of densities, relative to the scene file: an array of three axes, x, y and z, as numpy.save writes"
+            " it. Its cells fill the box."
+        ),
+    ] = None
+    noise: Annotated[DensityNoise | None, about("Densities by noise, from 0 to 1.")] = None
+
+
 class AccelerationDescription(Map, frozen=True, kw_only=True):
     """Who answers the rays: the picture is the same, the time is not."""
 
@@ -1231,3 +1283,6 @@ class SceneDescription(Map, frozen=True, kw_only=True):
     ] = msgspec.field(default_factory=dict)
     lights: Annotated[tuple[Light, ...], about("The lights.")] = ()
     objects: Annotated[tuple[Object, ...], about("The objects.")] = ()
+    media: Annotated[
+        tuple[MediumDescription, ...], about("What fills space; boxes must not overlap.")
+    ] = ()

@@ -37,7 +37,13 @@ def with_files(scene: d.SceneDescription, change: Callable[[str], str]) -> d.Sce
                 faces=faces and tuple(map(change, faces)),
                 cross=cross and change(cross),
             )
-    return replace(scene, objects=objects, materials=materials, environment=environment)
+    media = tuple(
+        replace(medium, grid=change(medium.grid)) if medium.grid else medium
+        for medium in scene.media
+    )
+    return replace(
+        scene, objects=objects, materials=materials, environment=environment, media=media
+    )
 
 
 def named_files(scene: d.SceneDescription, folder: Path) -> list[str]:

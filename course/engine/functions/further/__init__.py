@@ -9,6 +9,7 @@ A file is called as its module. It has
   function, for command lines read names without NumPy.
 """
 
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,7 @@ def further_contracts() -> dict[str, str]:
     return {f"{name}.{each}": text for name, m in found for each, text in m.CONTRACTS.items()}
 
 
-def further_stand_ins() -> dict[str, Any]:
+def further_stand_ins() -> dict[str, tuple[Callable[..., Any], str]]:
     """Stand-ins by "module.function"."""
     found = further().items()
     return {f"{name}.{each}": stand for name, m in found for each, stand in m.stand_ins().items()}

@@ -17,14 +17,16 @@ def power(light: d.Light) -> Floats64:
     return rgb(given(*(getattr(light, key, None) for key in keys)))
 
 
-def why_dark(light: d.Light, materials: MaterialTable, by_lobes: bool = False) -> str:
+def why_dark(
+    light: d.Light, materials: MaterialTable, by_lobes: bool = False, fills: bool = False
+) -> str:
     """The reason why a light needs no samples; empty if it needs them.
 
-    ``by_lobes`` : whether glossy surfaces look for points on lamps, too
+    ``by_lobes`` : whether glossy surfaces look for points on lamps, too; ``fills`` : whether fog does
     """
     # An object without emission is refused as a light.
     if not isinstance(light, d.ObjectLight) and not power(light).any():
         return "it has no power"
-    if not materials.shaded.any() and not (by_lobes and materials.mirror.any()):
+    if not fills and not materials.shaded.any() and not (by_lobes and materials.mirror.any()):
         return "no material has a diffuse or specular term"
     return ""

@@ -74,7 +74,7 @@ def compile_lights(
         name = f"light {number}"
         if isinstance(light, d.AmbientLight):
             continue
-        reason = why_dark(light, materials, by_lobes)
+        reason = why_dark(light, materials, by_lobes, bool(scene.media))
         if reason:
             skipped[name] = reason
             continue

@@ -14,6 +14,7 @@ from course.engine.scene.building.cameras import compile_lens
 from course.engine.scene.building.coplanar import lifts
 from course.engine.scene.building.environment import compile_environment
 from course.engine.scene.building.frame import Frame, in_range
+from course.engine.scene.building.further import with_further
 from course.engine.scene.building.glass_meshes import warn_of_glass
 from course.engine.scene.building.gloss import compile_scattering
 from course.engine.scene.building.lights import Lit, compile_choice, compile_lights, emitter_parts
@@ -131,6 +132,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
             lights if choice is None else (),
         ),
     )
+    world = with_further(loaded, frame, bound, things, world)
     check_growth(loaded, columns.names, world)
     if not warn_of_small(loaded, extents, boxes, frame):
         warn_of_unfinished(loaded, built.parts, small, built.pieces)

@@ -13,7 +13,7 @@ import numpy as np
 
 from course.engine.core.hits import Hits
 from course.engine.core.integrator import CancelledError, Integrator
-from course.engine.core.rays import RAYS, Draws, Rays
+from course.engine.core.rays import RAYS, Draws, Rays, join_rays
 from course.engine.core.types import Floats32, Indices, Mask
 from course.engine.terms.lights.multiple_importance import LampsAndLobes
 from course.engine.terms.paths.bounce import PathBounce
@@ -112,13 +112,14 @@ class PathIntegrator(Integrator):
         ``adds_lights``: (n,) bool, rays whose light from lamps and the environment counts; None for none of them
         """
         counters = draws.counters
+        rays, adds_lights, turned = self.entered(rays, adds_lights, depth, path_radiance, draws)
         hits, throughput, path, medium = self.intersect(
             rays, False if adds_lights is None else adds_lights, depth, path_radiance, draws
         )
         if adds_lights is not None and hits.ray is not None:
             adds_lights = adds_lights.take(hits.ray)
         if hits.size == 0:
-            return None
+            return beside(None, turned)
         inside = self.insides(hits)
         both, share = self.lamps_and_lobes, None
         if both is not None:
@@ -132,12 +133,26 @@ class PathIntegrator(Integrator):
                 self.add_radiance(path_radiance, path, reflected, throughput)
         counters.lap("shade")
         if depth == self.max_depth:
-            return None
+            return beside(None, turned)
         following = self.bounce(hits, throughput, path, medium, inside, depth, draws)
         if both is not None and following is not None:
             following = both.carried(hits, path, following[0]), following[1]
         counters.lap("bounce")
-        return following
+        return beside(following, turned)
+
+    def entered(
+        self,
+        rays: Rays,
+        adds_lights: Mask | None,
+        depth: int,
+        path_radiance: Floats32,
+        draws: Draws,
+    ) -> tuple[Rays, Mask | None, tuple[Rays, Mask | None] | None]:
+        """Rays as they come to surfaces, with ``adds_lights`` of these, and the same of those that turn before.
+
+        Where space is empty all come, and none turns: None.
+        """
+        return rays, adds_lights, None
 
     def _light(
         self,
@@ -172,6 +187,21 @@ class PathIntegrator(Integrator):
         if self.objects is not None and adds_lights is not None:
             radiance = self.objects.added(radiance, hits, adds_lights)
         return radiance
+
+
+def beside(
+    following: tuple[Rays, Mask | None] | None, turned: tuple[Rays, Mask | None] | None
+) -> tuple[Rays, Mask | None] | None:
+    """Rays that leave surfaces with rays that come from elsewhere, and which of them add lights."""
+    if turned is None or following is None:
+        return turned or following
+    parts = following, turned
+    adds_lights = None
+    if any(mask is not None for _, mask in parts):
+        adds_lights = np.concatenate(
+            [np.zeros(rays.size, np.bool_) if mask is None else mask for rays, mask in parts]
+        )
+    return join_rays([rays for rays, _ in parts]), adds_lights
 
 
 def glow(radiance: Floats32) -> Glow | None:

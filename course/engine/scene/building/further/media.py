@@ -1,0 +1,245 @@
+"""Fog of a scene: from boxes, grids and noise to what rays come through."""
+
+import warnings
+from dataclasses import replace
+from io import BytesIO
+from itertools import combinations
+from math import ceil
+
+import numpy as np
+
+from course.base.errors import CourseError, CourseWarning, SceneError
+from course.base.inputs import read_input
+from course.engine.core.lights.sample import TO_THE_LIGHT
+from course.engine.core.types import Floats32, Floats64
+from course.engine.formats.yaml import description as d
+from course.engine.formats.yaml.description import rgb
+from course.engine.formats.yaml.document import spell
+from course.engine.formats.yaml.loading import Loaded, bytes_of_files
+from course.engine.functions.effects import Bound
+from course.engine.scene.building.frame import Frame, in_range, in_reach
+from course.engine.scene.building.things import Things
+from course.engine.terms.media.fog import Fog, Fogs
+from course.engine.terms.media.lamps import Lamps
+from course.engine.terms.media.stage import MediaStage
+from course.engine.terms.media.tracking import DensityGrid
+from course.engine.terms.surfaces.perlin import noise
+from course.engine.terms.world import FullWorld
+
+MOST_CELLS = 1 << 26
+"""Of a grid from a file: 256 MB of float32."""
+
+
+def compiled(
+    loaded: Loaded, frame: Frame, bound: Bound, things: Things, world: FullWorld
+) -> FullWorld:
+    """The world with its fog.
+
+    Raises SceneError: boxes that are empty or overlap, grids that can't be read, coloured extinction of a grid, glass
+    that absorbs within fog; names the key.
+    """
+    scene = loaded.description
+    boxes = [_box(loaded, number) for number in range(len(scene.media))]
+    for (one, a), (other, b) in combinations(enumerate(boxes), 2):
+        if (np.maximum(a[0], b[0]) < np.minimum(a[1], b[1])).all():
+            raise loaded.document.error(
+                ("media", other),
+                f"it overlaps media[{one}]: boxes of fog may touch, but not overlap"
+                + (
+                    "; what fills the whole scene is alone" if not np.isfinite([a, b]).all() else ""
+                ),
+            )
+    fogs = [_fog(loaded, frame, bound, n, box, world) for n, box in enumerate(boxes)]
+    _check_glass(loaded, things, boxes)
+    _warn_of_endless(loaded, boxes, world)
+    if world.combining is not None and scene.integrator.gloss_sampling != "automatic":
+        _warn(
+            loaded,
+            ("integrator", "gloss_sampling"),
+            "in fog lamps are looked for by the lobe alone; the picture is the same on average, and noisier",
+        )
+    lamps = Lamps(
+        world.surface,
+        world.lights,
+        world.environment if world.sky is not None else None,
+        world.motion,
+        world.choice is not None and len(world.lights) > 1,
+    )
+    there = Fogs(tuple(fog for fog in fogs if fog.extinction.any()))
+    if not there.all:
+        return world
+    return replace(world, wraps=(*world.wraps, MediaStage(there, lamps)), combining=None)
+
+
+def _box(loaded: Loaded, number: int) -> Floats64:
+    """Corners (2, 3), infinite where the medium fills all."""
+    box = loaded.description.media[number].box
+    if box is None:
+        return np.array([[-np.inf] * 3, [np.inf] * 3])
+    corners = np.array(box, np.float64)
+    if not (corners[0] < corners[1]).all():
+        raise loaded.document.error(
+            ("media", number, "box"),
+            "expected a lowest and a highest corner, with room between them",
+        )
+    return corners
+
+
+def _fog(
+    loaded: Loaded, frame: Frame, bound: Bound, number: int, box: Floats64, world: FullWorld
+) -> Fog:
+    medium, path = loaded.description.media[number], ("media", number)
+    extinction = in_range(
+        rgb(medium.extinction) * frame.scale,
+        loaded,
+        (*path, "extinction"),
+        "the extinction",
+        "a scene's size",
+    )
+    densities = _densities(loaded, number, box)
+    albedo = rgb(medium.albedo).astype(np.float32)
+    scatters = bool(albedo.any())
+    names = {"ratio_tracking"} if densities is not None else {"transmittance"}
+    asked_by = ("media", number, "extinction")
+    if world.paths is not None:
+        names |= {"delta_tracking"} if densities is not None else {"free_flight", "free_flight_pdf"}
+        names |= {"henyey_greenstein", "sample_henyey_greenstein"}
+    elif scatters:
+        names |= {"henyey_greenstein", "in_scattering"}
+        if any(light.limit <= TO_THE_LIGHT for light in world.lights):
+            names.add("equiangular")
+        if world.sky is not None:
+            names.add("sample_henyey_greenstein")
+    functions = bound.functions("media", *sorted(names), asked_by=asked_by)
+    grid = None
+    if densities is not None and extinction.any():
+        largest = float(densities.max())
+        grid = DensityGrid(
+            (densities * extinction[0]).astype(np.float32),
+            float(np.float32(largest) * extinction[0]),
+            functions,
+        )
+        if not largest:
+            extinction, grid = np.zeros(3, np.float32), None
+    low, high = (frame.position(corner) if np.isfinite(corner).all() else corner for corner in box)
+    if np.isfinite(box).all():
+        in_reach(np.stack((low, high)), loaded, (*path, "box"), "a corner")
+    corners = low.astype(np.float32), high.astype(np.float32)
+    return Fog(*corners, extinction, albedo, medium.g, functions, grid)
+
+
+def _densities(loaded: Loaded, number: int, box: Floats64) -> Floats32 | None:
+    """(X, Y, Z) what the extinction is times; None where it is even."""
+    medium, path = loaded.description.media[number], ("media", number)
+    if medium.grid is None and medium.noise is None:
+        return None
+    asks = "grid" if medium.grid is not None else "noise"
+    if medium.grid is not None and medium.noise is not None:
+        raise loaded.document.error(path, "both grid and noise are given: expected one of them")
+    if medium.box is None:
+        raise loaded.document.error((*path, asks), "densities need a box that they fill; give box")
+    if len(set(rgb(medium.extinction).tolist())) > 1:
+        raise loaded.document.error(
+            (*path, "extinction"),
+            f"expected one number beside {asks}: all channels fly alike; colour its albedo",
+        )
+    if medium.noise is not None:
+        return _noise(medium.noise, box)
+    assert medium.grid is not None
+    return _read(loaded, number, medium.grid)
+
+
+def _noise(noise_of: d.DensityNoise, box: Floats64) -> Floats32:
+    size = box[1] - box[0]
+    shape = [max(1, ceil(noise_of.cells * edge / size.max())) for edge in size]
+    middles = np.stack(
+        np.meshgrid(
+            *(
+                low + (np.arange(n) + 0.5) * edge / n
+                for low, edge, n in zip(box[0], size, shape, strict=True)
+            ),
+            indexing="ij",
+        )
+    ).reshape(3, -1)
+    grey = (noise((middles * noise_of.scale).astype(np.float32)) + 1) / 2
+    dense = np.clip((grey - noise_of.clear) / (1 - noise_of.clear), 0, 1)
+    return np.asarray(dense.reshape(shape), np.float32)
+
+
+def _read(loaded: Loaded, number: int, file: str) -> Floats32:
+    path = ("media", number, "grid")
+    name = loaded.path.parent / file
+    try:
+        content = read_input(name, "grid of densities", bytes_of_files(loaded.document), SceneError)
+    except CourseError as error:
+        raise loaded.document.error(path, str(error)) from error
+    try:
+        values = np.lib.format.read_array(BytesIO(content), allow_pickle=False)
+    # Whatever the reader of a header's Python text makes of wrong bytes.
+    except Exception as error:
+        raise loaded.document.error(
+            path, f"{file}: can't be read: expected an array that numpy.save has written"
+        ) from error
+    if (
+        values.ndim != 3
+        or not values.size
+        or values.size > MOST_CELLS
+        or values.dtype.kind not in "fiu"
+    ):
+        raise loaded.document.error(
+            path,
+            f"{file}: an array of shape {values.shape} and dtype {values.dtype}: expected numbers along three axes,"
+            f" at most {MOST_CELLS:,} of them",
+        )
+    wrong = np.argwhere(~(np.isfinite(values) & (values >= 0) & (values < np.float32(1e20))))
+    if len(wrong):
+        place = tuple(wrong[0].tolist())
+        raise loaded.document.error(
+            path,
+            f"{file}: {values[place]} at index {place}: expected densities of at least 0, and finite ones;"
+            f" {len(wrong):,} of {values.size:,} are none",
+        )
+    return np.ascontiguousarray(values, np.float32)
+
+
+def _check_glass(loaded: Loaded, things: Things, boxes: list[Floats64]) -> None:
+    """Refuse glass that absorbs within fog, and tell of other glass: what is within it isn't left out."""
+    scene = loaded.description
+    for number, (thing, bounds) in enumerate(zip(things.described, things.bounds, strict=True)):
+        glass = scene.materials[thing.material].dielectric
+        within = [
+            n
+            for n, box in enumerate(boxes)
+            if (np.maximum(box[0], bounds[0]) < np.minimum(box[1], bounds[1])).all()
+        ]
+        if glass is None or not within or not np.any(rgb(scene.media[within[0]].extinction)):
+            continue
+        path = ("objects", number)
+        if rgb(glass.absorption).any():
+            raise loaded.document.error(
+                path,
+                f"its glass absorbs light, and lies in media[{within[0]}]: expected one of the two;"
+                " a box of fog may leave it out",
+            )
+        _warn(loaded, path, f"media[{within[0]}] is in the glass as well; a box may leave it out")
+
+
+def _warn_of_endless(loaded: Loaded, boxes: list[Floats64], world: FullWorld) -> None:
+    """Tell of light that would come through fog without an end."""
+    endless = [n for n, box in enumerate(boxes) if not np.isfinite(box).all()]
+    if not endless or not rgb(loaded.description.media[endless[0]].extinction).all():
+        return
+    far = [light.name for light in world.lights if light.limit > TO_THE_LIGHT]
+    if far or world.environment is not None:
+        what = ", ".join(far) or "the environment"
+        _warn(
+            loaded,
+            ("media", endless[0]),
+            f"no light of {what} comes through fog without an end; give it a box",
+        )
+
+
+def _warn(loaded: Loaded, path: tuple[str | int, ...], what: str) -> None:
+    warnings.warn(
+        f"{loaded.document.where(path)}: {spell(path)}: {what}", CourseWarning, stacklevel=2
+    )

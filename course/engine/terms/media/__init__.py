@@ -1,0 +1,1 @@
+"""What fills space: light is lost and scattered between surfaces."""
