@@ -326,5 +326,6 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
         lambda encoded, _u: np.round(255 * encoded.clip(0, 1)).astype(np.uint8),
         "codes are not dithered, so that smooth shades have steps",
     ),
-} | further_stand_ins()
+}
+STAND_INS |= further_stand_ins()
 """By "module.function": what stands in for it, and what a picture then looks like."""

@@ -246,6 +246,37 @@ class Recorder:
             throughput=arriving,
         )
 
+    def stopped(self, path: Indices, points: Floats32, throughput: Floats32) -> None:
+        """See ``Watcher``."""
+        nothing = np.full(len(path), -1)
+        self.hits.add(
+            self.kept(path),
+            id=path,
+            p=points,
+            near=points,
+            triangle=nothing,
+            material=nothing,
+            throughput=throughput,
+        )
+
+    def sought(
+        self, path: Indices, light: str, ways: tuple[Any, Any], ends: tuple[Any, Any], value: Any
+    ) -> None:
+        """See ``Watcher``."""
+        self.shadows.add(
+            self.kept(path),
+            id=path,
+            light=light or ENVIRONMENT_LIGHT,
+            origin=ways[0],
+            direction=ways[1],
+            limit=np.maximum(ends[1], 1.0),
+            far=ends[1],
+            free=ends[0] < 0,
+            triangle=ends[0],
+            shaft=UNKNOWN,
+            value=value,
+        )
+
     def add(self, ids: Indices, radiance: Floats32, throughput: Floats32 | None) -> None:
         """Radiance (3, n) that rays bring to their hits, times throughput (3, n), None for 1."""
         value = radiance if throughput is None else radiance * throughput

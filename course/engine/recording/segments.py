@@ -22,6 +22,9 @@ AFAR = 2.0
 ROUNDING = 1e-6
 """Share of the lights' radiance that may be lost where it is summed in float32."""
 
+BETWEEN = "the fog"
+"""Where rays end between surfaces."""
+
 ONWARD = {"mirrored", "refracted", "bounce"}
 """How rays go on from a surface."""
 
@@ -129,12 +132,14 @@ class Names:
             first = end
 
     def object(self, triangle: int) -> str:
-        """The object or light of a triangle."""
+        """The object or light of a triangle; -1 is between surfaces."""
+        if triangle < 0:
+            return BETWEEN
         return self.parts[int(np.searchsorted(self.ends, triangle, side="right"))]
 
     def material(self, number: int) -> str | None:
-        """A material's name; None for that of a light."""
-        return self.materials[number] if number < len(self.materials) else None
+        """A material's name; None for that of a light, and for -1, between surfaces."""
+        return self.materials[number] if 0 <= number < len(self.materials) else None
 
 
 def _called(scene: d.SceneDescription, number: int | None) -> str:
@@ -264,9 +269,10 @@ class _Reading:
         """How a ray left the surface that it comes from."""
         if row["parent"] < 0:
             return "camera"
-        if int(row["parent"]) in self._bounced:
+        came = self._hits[int(row["parent"])]
+        if int(row["parent"]) in self._bounced or came["triangle"] < 0:
             return "bounce"
-        above = np.array_equal(self._hits[int(row["parent"])]["near"], row["origin"])
+        above = np.array_equal(came["near"], row["origin"])
         return "mirrored" if above else "refracted"
 
     def _place(self, x: Floats32) -> Triple:
@@ -276,6 +282,8 @@ class _Reading:
         """Where the light comes from that a ray brings without a shadow ray."""
         if hit is None:
             return "the environment"
+        if hit["triangle"] < 0:
+            return BETWEEN
         material = int(hit["material"])
         if self._names.material(material) is None:
             return f"{self._names.object(int(hit['triangle']))} itself"

@@ -103,7 +103,7 @@ class Fog:
             return None
         size = (self.high - self.low)[:, None]
         found: Floats32 = self.grid.at((points - self.low[:, None]) / size)
-        return found / self.extinction.max()
+        return np.asarray(found / self.extinction.max(), np.float32)
 
     def _in_cube(
         self, origin: Floats32, direction: Floats32, start: Floats32

@@ -10,7 +10,7 @@ from course.engine.core.hits import Surface
 from course.engine.core.lights.sample import TO_THE_LIGHT, Light
 from course.engine.core.motion import Motion
 from course.engine.core.rays import Draws
-from course.engine.core.types import Floats32, Indices
+from course.engine.core.types import Floats32, Indices, Numbers
 from course.engine.core.vectors import repeated
 from course.engine.terms.environments.sky import FAR
 
@@ -23,6 +23,10 @@ def own(light: Light) -> str:
     return f"fog {light.name}"
 
 
+Blocked = tuple[Indices, Floats32, Numbers, Floats32]
+"""See ``ArrivingLight``."""
+
+
 @dataclass(frozen=True)
 class ArrivingLight:
     """Light that comes to some places.
@@ -33,12 +37,17 @@ class ArrivingLight:
     radiance : (3, m) float32: times phase function and transmittance it is the radiance that is scattered
     toward : (3, m) float32, unit vectors to where it comes from
     distance : (m,) float32 to there, infinite from far away
+    light : the light's name; "" for the environment
+    blocked : for a watcher, of places from which it isn't seen: which they are (k,), the ways (3, k) of shadow rays,
+        what triangles block these, and how far away in lengths of the ways; None without one
     """
 
     which: Indices
     radiance: Floats32
     toward: Floats32
     distance: Floats32
+    light: str = ""
+    blocked: Blocked | None = None
 
 
 @dataclass(frozen=True)
@@ -108,14 +117,15 @@ class Lamps:
         factor = np.broadcast_to(sample.factor, n)
         which = np.flatnonzero(factor > 0)
         way = repeated(sample.to_light, n).take(which, axis=1)
-        free = self._free(points, light.short_of(way), light.limit, time, path, which, draws)
+        asked = points, light.short_of(way), light.limit, time, path, which, draws
+        free, blocked = self._free(*asked)
         which, way = which[free], way[:, free]
         inverse = np.broadcast_to(sample.inverse_length, n).take(which)
         endless = light.limit > TO_THE_LIGHT
         distance = np.float32(np.inf if endless else 1) / inverse
         # A light's colour is over pi, for surfaces.
         radiance = np.float32(np.pi) * light.color[:, None] * factor.take(which)
-        return ArrivingLight(which, radiance, way * inverse, distance)
+        return ArrivingLight(which, radiance, way * inverse, distance, light.name, blocked)
 
     def sky(
         self,
@@ -129,12 +139,11 @@ class Lamps:
         if self.environment is None:
             return None
         every = np.arange(points.shape[1])
-        free = self._free(points, toward, FAR, time, path, every, draws)
+        free, blocked = self._free(points, toward, FAR, time, path, every, draws)
         toward = toward[:, free]
         radiance = repeated(self.environment.radiance(toward), toward.shape[1])
-        return ArrivingLight(
-            every[free], radiance, toward, np.full(toward.shape[1], np.inf, np.float32)
-        )
+        far = np.full(toward.shape[1], np.inf, np.float32)
+        return ArrivingLight(every[free], radiance, toward, far, "", blocked)
 
     def _free(
         self,
@@ -145,17 +154,22 @@ class Lamps:
         path: Indices,
         which: Indices,
         draws: Draws,
-    ) -> Indices:
-        """Which of the ways (3, m) from some points are free, as indices."""
+    ) -> tuple[Indices, Blocked | None]:
+        """Which of the ways (3, m) from some points are free, as indices; and what blocks the others, for a watcher."""
         draws.cast("shadow", len(which), path, which)
-        free = self.surface.accelerator.unoccluded(
-            np.ascontiguousarray(points.take(which, axis=1)),
-            np.ascontiguousarray(way),
-            limit,
-            draws.counters.embree,
-            None if time is None else time.take(which),
-        )
-        return np.flatnonzero(free)
+        start = np.ascontiguousarray(points.take(which, axis=1))
+        way, stats = np.ascontiguousarray(way), draws.counters.embree
+        when = None if time is None else time.take(which)
+        accelerator = self.surface.accelerator
+        free = accelerator.unoccluded(start, way, limit, stats, when)
+        blocked = None
+        if draws.watcher is not None:
+            shut = np.flatnonzero(~free)
+            length = np.linalg.norm(way.take(shut, axis=1), axis=0)
+            ways = start.take(shut, axis=1), way.take(shut, axis=1) / length
+            found = accelerator.intersect(*ways, stats, None if when is None else when.take(shut))
+            blocked = which.take(shut), way.take(shut, axis=1), found.triangle, found.t / length
+        return np.flatnonzero(free), blocked
 
     def _moved(self, light: Light, time: Floats32 | None) -> Floats32 | None:
         if light.velocity is None or self.motion is None or time is None:

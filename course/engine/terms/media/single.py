@@ -15,6 +15,7 @@ from course.engine.core.types import Floats32, Indices, Mask, Media
 from course.engine.core.vectors import dot, repeated
 from course.engine.terms.media.fog import NO_FOG, Fog, Fogs
 from course.engine.terms.media.lamps import WAY, ArrivingLight, Lamps
+from course.engine.terms.media.watched import begun, numbered, tell
 
 PLACE = ("fog place", 1)
 """The number of the place on a ray."""
@@ -39,17 +40,22 @@ class FogIntegrator(Integrator):
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """See ``Integrator``."""
         rays = self._dimmed(rays, depth, path_radiance, draws)
-        return super().intersect(rays, adds_lights, depth, path_radiance, draws)
+        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws))
 
     def _dimmed(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays:
         """Rays that carry what fog lets through; what it scatters is added."""
+        rays = numbered(rays, depth, draws)
+        assert rays.path is not None
+        path = rays.path
         origin = repeated(rays.origin, rays.size)
         found = self.surface.intersect(rays, draws.counters.embree, depth == 0)
         limit = np.where(found.triangle < 0, np.float32(np.inf), found.t)
         carried = rays.throughput
         if carried is None:
             carried = np.ones((3, rays.size), np.float32)
-        path = np.arange(rays.size) if rays.path is None else rays.path
+        left = self.fogs.transmittance(origin, rays.direction, limit)
+        # Told to watchers is what comes before the ray's own throughput at its end.
+        told = np.where(np.isinf(limit), np.float32(1), left)
         for fog in self.fogs.all:
             start, length = fog.span(origin, rays.direction, limit)
             which = np.flatnonzero(length > 0)
@@ -64,9 +70,9 @@ class FogIntegrator(Integrator):
                     path.take(which),
                     None if rays.time is None else rays.time.take(which),
                     carried.take(which, axis=1),
+                    told.take(which, axis=1),
                 )
                 some.scatter(self, self.lamps, depth, path_radiance, draws)
-        left = self.fogs.transmittance(origin, rays.direction, limit)
         draws.counters.lap("fog")
         return replace(rays, throughput=carried * left)
 
@@ -84,6 +90,7 @@ class _Stretch:
     path: Indices
     time: Floats32 | None
     carried: Floats32
+    told: Floats32
 
     def scatter(
         self, integrator: Integrator, lamps: Lamps, depth: int, total: Floats32, draws: Draws
@@ -103,7 +110,9 @@ class _Stretch:
                 distance, density = fog.media.equiangular(*rays, number)
             points = at + distance * some.direction
             lit = lamps.lit(light, points, of_light, some.time, some.path, draws)
-            some.add(integrator, lit, points, distance, density * np.float32(1 / counts), total)
+            some.add(
+                integrator, lit, points, distance, density * np.float32(1 / counts), total, draws
+            )
         distance, density = self.by_loss(u)
         if lamps.environment is not None:
             points = entry + distance * self.direction
@@ -111,7 +120,7 @@ class _Stretch:
             toward, odds = fog.media.sample_henyey_greenstein(self.direction, fog.g, v)
             sky = lamps.sky(points, toward, self.time, self.path, draws)
             if sky is not None:
-                self.add(integrator, sky, points, distance, density * odds, total)
+                self.add(integrator, sky, points, distance, density * odds, total, draws)
 
     def by_loss(self, u: Floats32) -> tuple[Floats32, Floats32]:
         """Distances (n,) as dense as the mean channel loses light, and their density."""
@@ -129,11 +138,13 @@ class _Stretch:
         distance: Floats32,
         density: Floats32,
         total: Floats32,
+        draws: Draws,
     ) -> None:
         """Add what comes to points (3, n) at distances (n,) in the box, chosen with a density (n,)."""
         if not len(lit.which):
+            tell(draws, lit, points, self.path, None)
             return
-        some, fog = self._of(lit.which), self.fog
+        everywhere, some, fog = points, self._of(lit.which), self.fog
         points, distance = points.take(lit.which, axis=1), distance.take(lit.which)
         entry = some.origin + some.start * some.direction
         phase = fog.media.henyey_greenstein(dot(lit.toward, some.direction), fog.g)
@@ -148,6 +159,9 @@ class _Stretch:
         others = Fogs(tuple(each for each in self.fogs.all if each is not fog))
         radiance *= others.transmittance(some.origin, some.direction, some.start + distance)
         radiance *= others.transmittance(points, lit.toward, lit.distance)
+        if draws.watcher is not None:
+            shown = np.divide(radiance, some.told, out=np.zeros_like(radiance), where=some.told > 0)
+            tell(draws, lit, everywhere, self.path, shown)
         integrator.add_radiance(total, some.path, radiance, some.carried)
 
     def _of(self, which: Indices) -> "_Stretch":
@@ -164,4 +178,5 @@ class _Stretch:
             self.path.take(which),
             None if self.time is None else self.time.take(which),
             self.carried.take(which, axis=1),
+            self.told.take(which, axis=1),
         )

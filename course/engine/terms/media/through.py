@@ -7,7 +7,6 @@ import numpy as np
 
 from course.engine.core.accelerator import QueryStats
 from course.engine.core.direct import Candidates, DirectLight, Reflection, Sums
-from course.engine.core.environment import Environment
 from course.engine.core.hits import Hits
 from course.engine.core.lights.sample import TO_THE_LIGHT, Light
 from course.engine.core.rays import Draws
@@ -87,19 +86,19 @@ class _FarRays:
 
 
 @dataclass(frozen=True)
-class FogSky:
+class FogSky(Sky):
     """An environment that lights surfaces through fog."""
 
-    sky: Sky
-    fogs: Fogs
+    fogs: Fogs = NO_FOG
 
     def __call__(
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
     ) -> Floats32 | None:
         """See ``Sky``."""
-        far: Any = _FarRays(self.sky, self.fogs)
-        seen: Environment = far
-        return replace(self.sky, surface=far, environment=seen)(hits, path, depth, draws)
+        far: Any = _FarRays(self, self.fogs)
+        known = {each.name: getattr(self, each.name) for each in fields(Sky)}
+        known |= {"surface": far, "environment": far}
+        return Sky(**known)(hits, path, depth, draws)
 
 
 @dataclass(frozen=True)
@@ -128,5 +127,6 @@ def through_fog(direct: DirectLight, fogs: Fogs) -> FogDirect:
     """Direct light of a scene with fog."""
     known = {each.name: getattr(direct, each.name) for each in fields(direct)}
     if isinstance(direct.sky, Sky):
-        known["sky"] = FogSky(direct.sky, fogs)
+        of_sky = {each.name: getattr(direct.sky, each.name) for each in fields(direct.sky)}
+        known["sky"] = FogSky(**of_sky, fogs=fogs)
     return FogDirect(**known, fogs=fogs)

@@ -8,11 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.engine.core.hits import Hits
 from course.engine.core.rays import OPEN, Draws, Rays
-from course.engine.core.types import Floats32, Indices, Mask
+from course.engine.core.types import Floats32, Indices, Mask, Media
 from course.engine.core.vectors import dot, repeated
 from course.engine.terms.media.fog import NO_FOG, Fogs
 from course.engine.terms.media.lamps import WAY, ArrivingLight, Lamps
+from course.engine.terms.media.watched import begun, numbered, tell
 from course.engine.terms.paths.path_tracing import PathIntegrator
 from course.engine.terms.paths.russian_roulette import survivors
 
@@ -36,10 +38,12 @@ class FogPathIntegrator(PathIntegrator):
         draws: Draws,
     ) -> tuple[Rays, Mask | None, tuple[Rays, Mask | None] | None]:
         """See ``PathIntegrator``."""
+        rays = numbered(rays, depth, draws)
+        assert rays.path is not None
+        path = rays.path
         origin = repeated(rays.origin, rays.size)
         found = self.surface.intersect(rays, draws.counters.embree, depth == 0)
         limit = np.where(found.triangle < 0, np.float32(np.inf), found.t)
-        path = np.arange(rays.size) if rays.path is None else rays.path
         carried = np.ones((3, rays.size), np.float32)
         if rays.throughput is not None:
             carried = rays.throughput.copy()
@@ -51,6 +55,10 @@ class FogPathIntegrator(PathIntegrator):
             points = origin.take(stays, axis=1)
             points += nearest.take(stays) * rays.direction.take(stays, axis=1)
             stopped = _some(whole, stays, points)
+            if draws.watcher is not None:
+                assert stopped.path is not None
+                assert stopped.throughput is not None
+                draws.watcher.stopped(stopped.path, points, stopped.throughput)
             on = self._turned(stopped, by.take(stays), depth, path_radiance, draws)
             if on is not None:
                 turned = on, np.ones(on.size, np.bool_) if self._rays_find_it else None
@@ -67,6 +75,17 @@ class FogPathIntegrator(PathIntegrator):
             None if rays.start is None else rays.start.take(goes, axis=1),
         )
         return through, adds_lights, turned
+
+    def intersect(
+        self,
+        rays: Rays,
+        adds_lights: Mask | bool,
+        depth: int,
+        path_radiance: Floats32,
+        draws: Draws,
+    ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
+        """See ``Integrator``."""
+        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws))
 
     @property
     def _rays_find_it(self) -> bool:
@@ -117,7 +136,7 @@ class FogPathIntegrator(PathIntegrator):
             some = _some(rays, which)
             assert some.path is not None
             lit = lamps.lit(light, some.origin, u, some.time, some.path, draws)
-            self._add(some, by.take(which), lit, np.float32(counts), path_radiance)
+            self._add(some, by.take(which), lit, np.float32(counts), path_radiance, draws)
         v = draws(WAY[0], path, depth)
         toward = np.empty_like(rays.direction)
         share = np.empty(rays.size, np.float32)
@@ -131,7 +150,7 @@ class FogPathIntegrator(PathIntegrator):
         if depth == self.max_depth or not self._rays_find_it:
             sky = lamps.sky(rays.origin, toward, rays.time, path, draws)
         if sky is not None:
-            self._add(rays, by, sky, share, path_radiance, phased=False)
+            self._add(rays, by, sky, share, path_radiance, draws, phased=False)
         if depth == self.max_depth:
             return None
         after = (rays.throughput if rays.throughput is not None else np.float32(1)) * share
@@ -160,6 +179,7 @@ class FogPathIntegrator(PathIntegrator):
         lit: ArrivingLight,
         counts: Floats32 | np.float32,
         path_radiance: Floats32,
+        draws: Draws,
         phased: bool = True,
     ) -> None:
         """Add light that comes to where rays have been stopped.
@@ -167,7 +187,9 @@ class FogPathIntegrator(PathIntegrator):
         ``phased``: whether the phase function is still to count
         """
         which = lit.which
+        assert rays.path is not None
         if not len(which):
+            tell(draws, lit, rays.origin, rays.path, None)
             return
         some, by = _some(rays, which), by.take(which)
         share = np.broadcast_to(counts, rays.size).take(which).astype(np.float32)
@@ -177,7 +199,9 @@ class FogPathIntegrator(PathIntegrator):
                 mine = np.flatnonzero(by == number)
                 share[mine] *= fog.media.henyey_greenstein(cos.take(mine), fog.g)
         left = self.fogs.transmittance(some.origin, lit.toward, lit.distance)
-        self.add_radiance(path_radiance, some.path, lit.radiance * left * share, some.throughput)
+        radiance = lit.radiance * left * share
+        tell(draws, lit, rays.origin, rays.path, radiance)
+        self.add_radiance(path_radiance, some.path, radiance, some.throughput)
 
 
 def _some(rays: Rays, which: Indices, origin: Floats32 | None = None) -> Rays:

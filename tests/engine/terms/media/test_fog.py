@@ -13,6 +13,7 @@ import pytest
 
 from course import render
 from course.base.errors import CourseWarning, SceneError
+from course.engine.recording.recording import record
 from tests.conftest import MakeScene
 from tests.engine.terms.lights.over_a_floor import assert_mean
 from tests.processes import python
@@ -310,3 +311,26 @@ def test_a_scene_without_fog_imports_nothing_of_it() -> None:
         " or m == 'course.engine.scene.building.further.media'])"
     )
     assert python("-c", code).stdout.strip() == "[]"
+
+
+@both
+def test_the_rays_of_a_pixel_tell_of_fog_and_add_up(make_scene: MakeScene, kind: str) -> None:
+    """Radiance of segments is that of the pixel, and some of it comes from shadow rays that start between surfaces."""
+    scene = make_scene(
+        camera=AHEAD,
+        film={"width": 3, "height": 2},
+        materials={"w": {"color": 0.5}},
+        objects=[SCREEN | {"material": "w"}],
+        lights=[light for light, _ in LAMPS.values()],
+        environment={"type": "constant", "radiance": 0.2, "lights": True},
+        media=[fog(albedo=0.8)],
+        sampler={"type": "sobol", "samples": 64},
+        integrator=kinds(kind, max_depth=3),
+    )
+    recording = record(scene, 1, 1)
+    picture = render(scene).linear[1, 1]
+    total = sum(np.array(one.radiance) for one in recording.segments) / 64
+    np.testing.assert_allclose(total, picture, rtol=1e-3)
+    lit = [one for one in recording.segments if one.kind == "shadow" and abs(one.start[2]) < 1]
+    assert lit
+    assert any(one.met == "the fog" for one in recording.segments) == (kind == "path")
