@@ -257,14 +257,18 @@ def _check(**arrays):
         got = np.shape(array)
         wanted = tuple(known.get(size, size) for size in sizes)
         right = len(got) == len(sizes)
-        if not right or any(isinstance(a, int) and a != b for a, b in zip(wanted, got, strict=True)):
+        if not right or any(
+            isinstance(a, int) and a != b for a, b in zip(wanted, got, strict=True)
+        ):
             text = ", ".join(map(str, wanted)) + "," * (len(sizes) == 1)
             raise ValueError(f"{name} must have shape ({text}), got {got}")
         known.update({size: n for size, n in zip(sizes, got, strict=True) if isinstance(size, str)})
 
 
 def _check_rays(origin, direction, limit, u, *sizes):
-    _check(origin=(origin, 3, "N"), direction=(direction, 3, "N"), limit=(limit, "N"), u=(u, *sizes))
+    _check(
+        origin=(origin, 3, "N"), direction=(direction, 3, "N"), limit=(limit, "N"), u=(u, *sizes)
+    )
 
 
 def _check_colors(**colors):

@@ -23,19 +23,6 @@ class Watcher(Protocol):
     def met(self, path: Indices, hits: Any, throughput: Floats32 | None) -> None:
         """Hits of rays ``path`` (n,) and their throughput (3, n), None for 1."""
 
-    def stopped(self, path: Indices, points: Floats32, throughput: Floats32) -> None:
-        """Rays ``path`` (n,) end at points (3, n) between surfaces, with this throughput (3, n)."""
-
-    def sought(
-        self, path: Indices, light: str, ways: tuple[Any, Any], ends: tuple[Any, Any], value: Any
-    ) -> None:
-        """Rays ``path`` (n,) have asked a light by its name, "" for the environment, from places between surfaces.
-
-        ``ways`` : where shadow rays start and where they go, (3, n) each
-        ``ends`` : what blocks them, (n,) triangles or -1, and how far away in lengths of their ways, or else the limit
-        ``value`` : radiance (3, n) that they bring, before the throughput of rays at their ends
-        """
-
     def asks(self, direct: Any, light: Any, path: Indices | None) -> None:
         """Hits of rays ``path`` (n,), those that were met last or some of them, will ask a light."""
 

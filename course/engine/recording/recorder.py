@@ -247,7 +247,7 @@ class Recorder:
         )
 
     def stopped(self, path: Indices, points: Floats32, throughput: Floats32) -> None:
-        """See ``Watcher``."""
+        """See ``FogWatcher``."""
         nothing = np.full(len(path), -1)
         self.hits.add(
             self.kept(path),
@@ -262,7 +262,7 @@ class Recorder:
     def sought(
         self, path: Indices, light: str, ways: tuple[Any, Any], ends: tuple[Any, Any], value: Any
     ) -> None:
-        """See ``Watcher``."""
+        """See ``FogWatcher``."""
         self.shadows.add(
             self.kept(path),
             id=path,

@@ -14,7 +14,7 @@ from course.engine.core.types import Floats32, Indices, Mask, Media
 from course.engine.core.vectors import dot, repeated
 from course.engine.terms.media.fog import NO_FOG, Fogs
 from course.engine.terms.media.lamps import WAY, ArrivingLight, Lamps
-from course.engine.terms.media.watched import begun, numbered, tell
+from course.engine.terms.media.watched import begun, numbered, tell, watcher_of
 from course.engine.terms.paths.path_tracing import PathIntegrator
 from course.engine.terms.paths.russian_roulette import survivors
 
@@ -55,10 +55,10 @@ class FogPathIntegrator(PathIntegrator):
             points = origin.take(stays, axis=1)
             points += nearest.take(stays) * rays.direction.take(stays, axis=1)
             stopped = _some(whole, stays, points)
-            if draws.watcher is not None:
+            if (watcher := watcher_of(draws)) is not None:
                 assert stopped.path is not None
                 assert stopped.throughput is not None
-                draws.watcher.stopped(stopped.path, points, stopped.throughput)
+                watcher.stopped(stopped.path, points, stopped.throughput)
             on = self._turned(stopped, by.take(stays), depth, path_radiance, draws)
             if on is not None:
                 turned = on, np.ones(on.size, np.bool_) if self._rays_find_it else None
