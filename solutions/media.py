@@ -139,9 +139,8 @@ def sample_henyey_greenstein(direction, g, u):
     p = -1 / (sign + z)
     q = x * y * p
     across, along = (1 + sign * x * x * p, sign * q, -sign * x), (q, sign + y * y * p, -y)
-    way = np.stack(
-        [a * s + b * t + cos * d for s, t, d in zip(across, along, (x, y, z), strict=True)]
-    )
+    basis = zip(across, along, (x, y, z), strict=True)
+    way = np.stack([a * s + b * t + cos * d for s, t, d in basis])
     way = way / np.sqrt((way * way).sum(axis=0))
     return way.astype(dtype), henyey_greenstein(cos, g).astype(dtype)
     ### END SOLUTION
