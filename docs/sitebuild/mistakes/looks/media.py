@@ -194,7 +194,7 @@ LOOKS = {
         Look(
             f"The density that is returned; {_GREY}",
             _drawn(U, _densities, "the number u[0]"),
-            ("scatter_pdf_without_g", "scatter_pdf_of_cosine"),
+            ("scatter_pdf_of_cosine",),
         ),
     ),
     "delta_tracking": (
