@@ -187,7 +187,7 @@ LOOKS = {
             ("scatter_half_turn",),
         ),
         Look(
-            f"How many directions have which cosine; {_LINE}",
+            f"How many directions have which cosine where g is 0; {_LINE}",
             plot(_even_turned, curve=True),
             ("scatter_not_a_number",),
         ),
