@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from course.base.errors import SceneError as SceneError
     from course.engine.recording.pixel import pixel as pixel
     from course.engine.recording.story import Story as Story
+    from course.engine.render.convergence import error_over_time as error_over_time
     from course.engine.render.picture import Picture as Picture
     from course.engine.render.render import render as render
     from course.engine.scene.scene import Scene as Scene
@@ -38,6 +39,7 @@ _HOMES = {
     "Scene": "course.engine.scene.scene",
     "SceneError": "course.base.errors",
     "Story": "course.engine.recording.story",
+    "error_over_time": "course.engine.render.convergence",
     "load_scene": "course.engine.scene.scene",
     "pixel": "course.engine.recording.pixel",
     "render": "course.engine.render.render",
@@ -53,6 +55,16 @@ def __getattr__(name: str) -> object:
     value = getattr(import_module(_HOMES[name]), name)
     globals()[name] = value
     return value
+
+
+def load_ipython_extension(shell: object) -> None:
+    """Give a notebook `%%check`, `%course` and `mine`; called by `%load_ext course`."""
+    import_module("course.school.notebooks.extension").load(shell)
+
+
+def unload_ipython_extension(shell: object) -> None:
+    """Take them away; called by `%unload_ext course`."""
+    import_module("course.school.notebooks.extension").unload(shell)
 
 
 def __dir__() -> list[str]:

@@ -38,7 +38,7 @@ FLOORS = {
         {"media"},
         {"plan"},
     ],
-    "course.school": [{"grading"}, {"quizzes", "studio"}],
+    "course.school": [{"grading"}, {"notebooks", "quizzes", "studio"}],
 }
 """Rooms of the house and of its wings, from the lowest floor on; rooms of one floor know nothing of each other."""
 
@@ -50,7 +50,13 @@ DOOR = {
         *("pictures.display", "yaml.checking", "yaml.description", "yaml.document", "yaml.loading"),
         *("yaml.schema", "yaml.suggestions", "yaml.tree"),
     },
-    "functions": {"contracts", "effects", "modules", "own", "signatures"},
+    "functions": {
+        *("contracts", "effects", "modules", "own", "signatures", "sources"),
+        *(
+            f"notebook.{name}"
+            for name in ("cells", "name_effects", "needed", "reachable", "reading")
+        ),
+    },
     "loops": {"fits", "library"},
     "recording": {"pair", "recording", "stages", "story", "view"},
     "render": {

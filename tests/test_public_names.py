@@ -12,7 +12,7 @@ import course
 
 PUBLIC = {
     *("CourseError", "EffectError", "GeometryError", "OutputError", "Picture", "Scene"),
-    *("SceneError", "Story", "__version__", "load_scene", "pixel", "render"),
+    *("SceneError", "Story", "__version__", "error_over_time", "load_scene", "pixel", "render"),
 }
 
 

@@ -6,7 +6,7 @@ import random
 from dataclasses import replace
 from itertools import pairwise
 
-from course.school.grading.classes.notebooks import read_notebook
+from course.engine.functions.notebook.reading import read_notebook
 from course.school.grading.known import KnownSubmission
 
 NOISE = (

@@ -6,6 +6,10 @@ from collections.abc import Iterable
 class CourseError(Exception):
     """A mistake in what the user gave; its message is shown without a traceback."""
 
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows of it; see IPython's ``InteractiveShell.showtraceback``."""
+        return [f"{type(self).__name__}: {self}"]
+
 
 class CourseWarning(UserWarning):
     """Something doubtful in the input, and what has been made of it; the message names the place."""

@@ -34,6 +34,11 @@ def clean_line(text: str) -> str:
     return " ".join(clean(text).split("\n"))
 
 
+def count(number: int, noun: str) -> str:
+    """Say how many: `count(1, "thread")` is "1 thread", `count(2, "thread")` "2 threads"."""
+    return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
+
+
 def words(text: str) -> frozenset[str]:
     """The words of a list in our own sources."""
     return frozenset(text.split())

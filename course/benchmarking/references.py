@@ -19,6 +19,7 @@ from course.engine.formats.yaml.loading import Loaded, load_description
 from course.engine.formats.yaml.named_files import named_files
 from course.engine.formats.yaml.overriding import Overrides
 from course.engine.functions.effects import PACKAGE, Effects
+from course.engine.functions.sources import saved_files
 from course.engine.render.render import render
 from course.engine.scene.building.world import compile_scene
 from course.engine.scene.scene import Scene
@@ -42,7 +43,7 @@ def engine_hash(effects: Path) -> str:
     for name in LIBRARIES:
         digest.update(f"{name} {version(name)}\n".encode())
     files = [path for name in RENDERING for path in (PACKAGE / "engine" / name).rglob("*.py")]
-    for path in [*sorted(files), *sorted(effects.glob("*.py"))]:
+    for path in [*sorted(files), *sorted(saved_files(effects))]:
         digest.update(f"{path.parent.name}/{path.name}\n".encode())
         digest.update(sha256(path.read_bytes()).digest())
     return digest.hexdigest()

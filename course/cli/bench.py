@@ -12,9 +12,9 @@ import click
 
 from course.base.atomic import make_folder, write_text
 from course.base.errors import CourseError, OutputError
+from course.base.progress import progress_bar
 from course.cli import options
 from course.cli.outputs import check_outputs, is_same_file
-from course.cli.progress import progress_bar
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE, MODULES
 

@@ -7,10 +7,11 @@ from pathlib import Path
 import click
 
 from course.base.errors import CourseError
+from course.base.texts import count
 from course.cli.classes import trust_option
 from course.cli.options import PATH, choice_options
 from course.cli.outputs import check_outputs
-from course.cli.tables import count, print_sections
+from course.cli.tables import print_sections
 from course.engine.functions.effects import PROJECT
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import ast
 import json
 import re
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,17 +15,16 @@ from course.base.atomic import write_text
 from course.base.errors import CourseError
 from course.cli.options import FAILED, OUT_FILE, folder_option, modules_argument
 from course.cli.outputs import check_outputs
-from course.cli.tables import count
 from course.cli.watching import await_change, times
 from course.engine.functions.modules import meant
+from course.engine.functions.notebook.reading import UNNEEDED
+from course.engine.functions.sources import cells_of, find_module, is_notebook, named, told_place
 
 if TYPE_CHECKING:
+    from course.engine.functions.notebook.needed import Place
     from course.school.grading.checks.check import Check, References
     from course.school.grading.checks.result import Result
     from course.school.grading.report import Report
-
-SHORT = 100
-"""Characters of what several checks have found, where it has been told in full before."""
 
 
 @click.command()
@@ -72,18 +71,19 @@ def check(
     Each function is checked by itself. The exit code is 0 when everything is right.
     """
     from course.school.grading.references import references
+    from course.school.grading.submissions import find_modules
 
     check_outputs(files=[("--html", html), ("--json", json_file)])
     arrays = references(seed)
 
     def files() -> list[Path]:
-        return [folder / f"{module}.py" for module in modules]
+        return [find_module(folder, module) or named(folder, module) for module in modules]
 
     while True:
         seen = times(files())
         report = _check(folder, modules, only, seed, arrays, rungs)
         if lines:
-            _print_lines(report, folder)
+            _print_lines(report, find_modules(folder, modules), folder)
         if html is not None:
             from course.school.grading.reports.page import as_page
 
@@ -111,17 +111,33 @@ def _check(
 ) -> Report:
     from course.school.grading.grading import grade
     from course.school.grading.references import has_references
+    from course.school.grading.reports.printing import Printer, loops_in, place_told
     from course.school.grading.submissions import find_modules, read_found
     from course.school.grading.worker.sandbox import plain
 
     paths = find_modules(folder, modules)
     for path in paths.values():
-        if path.parent != folder:
+        if path.parent != folder and path != folder:
             click.echo(f"{folder / path.name} is missing; {path} is checked in its place", err=True)
+    for told in dict.fromkeys(
+        told
+        for module, path in paths.items()
+        if is_notebook(path)
+        for told in cells_of(path, module).told
+        if not told.startswith(UNNEEDED)
+    ):
+        click.echo(f"{folder}: {told}", err=True)
     chosen = _chooser(only)
     if not has_references(seed):
         chosen = _without_references(chosen, seed)
-    shown = _Printer(folder, seed, rungs)
+    shown = Printer(
+        partial(place_told, paths, folder),
+        seed,
+        rungs,
+        loops=lambda result: (
+            loops_in(paths[result.module], result) if result.module in paths else ""
+        ),
+    )
     report = grade(
         read_found(folder, paths),
         arrays,
@@ -132,6 +148,7 @@ def _check(
         # One's own code needs no walls, and starts sooner without.
         shut_in=plain(),
         folder=folder,
+        files=paths,
     )
     if not report.results:
         if not has_references(seed):
@@ -159,33 +176,38 @@ def _near(only: str | None, modules: tuple[str, ...]) -> str:
     return f"; did you mean {near}?" if near else ""
 
 
-def _print_lines(report: Report, folder: Path) -> None:
+def _print_lines(report: Report, paths: dict[str, Path], folder: Path) -> None:
     """A line for each function that isn't right, the first thing that was found of it."""
-    from course.school.grading.progress import line_of
+    from course.school.grading.places import place_of
     from course.school.grading.report import grouped
+    from course.school.grading.reports.printing import short
 
     click.echo()
     for module in grouped(report):
-        path = folder / f"{module.name}.py"
+        path = paths.get(module.name, named(folder, module.name))
         if module.trouble and module.functions[0].state != "to do":
-            line = _stopped(module.name, module.trouble) or 1
-            click.echo(f"{path}:{line}: error: {_short(module.trouble.found)}")
+            place = _stopped(path, module.name, module.trouble) or (0, 1)
+            click.echo(f"{told_place(path, place)}: error: {short(module.trouble.found)}")
             continue
         for function in module.functions:
             if function.state == "right":
                 continue
             severity = "warning" if function.state == "to do" else "error"
             told = function.told[:1] if severity == "error" else ()
-            text = "".join(f"{one.title}: {_short(one.found)}" for one in told)
-            stopped = _stopped(module.name, told[0]) if told else 0
-            line = stopped or line_of(path, function.name)
-            click.echo(f"{path}:{line}: {severity}: {function.name}: {text or function.state}")
+            text = "".join(f"{one.title}: {short(one.found)}" for one in told)
+            stopped = _stopped(path, module.name, told[0]) if told else None
+            place = stopped or place_of(path, module.name, function.name)
+            what = f"{severity}: {function.name}: {text or function.state}"
+            click.echo(f"{told_place(path, place)}: {what}")
 
 
-def _stopped(module: str, result: Result) -> int:
-    """Where Python has stopped: the last line of its traceback that is of the module's file; 0 if there is none."""
-    lines = re.findall(rf"^ *File \"{module}\.py\", line (\d+)", result.where, re.MULTILINE)
-    return int(lines[-1]) if lines else 0
+def _stopped(path: Path, module: str, result: Result) -> Place | None:
+    """Where Python has stopped: the last line of its traceback that is of the module's file; None if there is none."""
+    file = path.name if is_notebook(path) else f"{module}.py"
+    lines = re.findall(
+        rf"^ *File \"{re.escape(file)}\",(?: cell (\d+),)? line (\d+)", result.where, re.MULTILINE
+    )
+    return (int(lines[-1][0] or 0), int(lines[-1][1])) if lines else None
 
 
 def _chooser(only: str | None) -> Callable[[Check], bool] | None:
@@ -205,125 +227,3 @@ def _without_references(
         err=True,
     )
     return lambda check: check.prepare is None and (chosen is None or chosen(check))
-
-
-class _Printer:
-    """Prints results as they come: a line for each function, and what went wrong under it."""
-
-    def __init__(self, folder: Path, seed: int, rungs: int) -> None:
-        self._folder, self._seed, self._rungs = folder, seed, rungs
-        self._module = ""
-        self._pending: list[Result] = []
-
-    def result(self, result: Result) -> None:
-        if self._pending and self._pending[0].function != result.function:
-            self._flush()
-        if result.module != self._module:
-            self._flush()
-            self._module = result.module
-            click.secho(result.module, bold=True)
-            if result.module_wide:
-                click.secho(f"  {result.found}", fg="red")
-                for line in result.where.splitlines():
-                    click.echo(f"  {line}")
-                if result.hint:
-                    click.echo(f"  {result.hint}")
-        self._pending.append(result)
-
-    def end(self, report: Report) -> None:
-        from course.school.grading.report import as_points
-
-        self._flush()
-        for module, text in report.printed.items():
-            click.echo(f"\n{module}.py printed:")
-            click.echo("\n".join(f"  | {line}" for line in text.splitlines()[:12]))
-        passed = sum(result.status == "passed" for result in report.results)
-        click.secho(
-            f"\n{as_points(report.points)} of {as_points(report.of)} points, "
-            f"{passed} of {count(len(report.results), 'check')} passed, {report.seconds:.1f} s",
-            bold=True,
-        )
-
-    def _flush(self) -> None:
-        results, self._pending = self._pending, []
-        if not results:
-            return
-        from course.school.grading.progress import line_of
-        from course.school.grading.report import FunctionResults, docs_page, unstarted
-
-        function = results[0].function
-        wrong = [result for result in results if result.status != "passed"]
-        if not wrong:
-            click.echo(
-                f"  {click.style('right', fg='green')}    {function}  ({count(len(results), 'check')})"
-            )
-            for note in dict.fromkeys(result.hint for result in results if result.hint):
-                click.echo(f"           {note}")
-            return
-        if all(result.status == "not attempted" for result in results):
-            click.echo(f"  {click.style('to do', fg='yellow')}    {function}")
-            if unstarted(results[0]) and not results[0].module_wide:
-                click.echo(f"           {unstarted(results[0])}")
-            if not results[0].module_wide:
-                path = self._folder / f"{results[0].module}.py"
-                _line("write", f"{path}:{line_of(path, function)}")
-                _line("read", docs_page(results[0]))
-            return
-        click.echo(
-            f"  {click.style('wrong', fg='red')}    {function}  ({len(wrong)} of {count(len(results), 'check')})"
-        )
-        if results[0].module_wide:
-            return
-        grouped = FunctionResults(self._module, function, tuple(results))
-        for number, result in enumerate(grouped.told):
-            # What is found first mostly explains the rest, which is told in full when it is asked for.
-            if number:
-                _line("also", f"{result.check}: {result.title}")
-            else:
-                self._tell(result)
-        for found, repeated in grouped.repeated:
-            names = ", ".join(result.check for result in repeated)
-            click.echo(f"      {count(len(repeated), 'check')} more: {_short(found)}")
-            _line("these", names)
-
-    def _tell(self, result: Result) -> None:
-        from course.school.grading.progress import line_of
-        from course.school.grading.report import docs_page, ending, findings, reproduce
-
-        what = "" if ending(result) == "failed" else f" [{ending(result)}]"
-        click.echo(f"      {click.style(result.check, bold=True)}{what}: {result.title}")
-        for label, text in findings(result, self._rungs):
-            _line(label, click.style(text, fg="cyan") if label == "looks like" else text)
-        below = len(findings(result)) > len(findings(result, self._rungs))
-        more = f" --hint {self._rungs + 1}" if below else ""
-        _line("more" if below else "again", f"{reproduce(result, self._seed)}{more}")
-        path = self._folder / f"{result.module}.py"
-        _line("file", f"{path}:{line_of(path, result.function)}{_loops(path, result)}")
-        _line("read", docs_page(result))
-
-
-def _loops(path: Path, result: Result) -> str:
-    """Of a function that gave no answer in time, its loops that may never end."""
-    if result.status != "timeout":
-        return ""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    lines = [
-        str(loop.lineno)
-        for function in tree.body
-        if isinstance(function, ast.FunctionDef) and function.name == result.function
-        for loop in ast.walk(function)
-        if isinstance(loop, ast.While)
-    ]
-    return f", with a loop by `while` in line {', '.join(lines)}" if lines else ""
-
-
-def _short(text: str) -> str:
-    line = " ".join(text.split())
-    return line if len(line) <= SHORT else f"{line[:SHORT]} ..."
-
-
-def _line(label: str, text: str) -> None:
-    first, *rest = text.rstrip().splitlines() or [""]
-    click.echo(f"        {label:<10}  {first}")
-    for line in rest[-8:]:
-        click.echo(f"        {'':<10}  {line}")

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from course.base.progress import progress_bar
+from course.base.texts import count
 from course.cli.options import FOLDER, seconds
-from course.cli.progress import progress_bar
-from course.cli.tables import count
 
 if TYPE_CHECKING:
     from course.school.grading.classes.grading import ClassEngine, ClassResult, Finished, Runner

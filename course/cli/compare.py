@@ -12,7 +12,8 @@ import click
 from course.base.errors import CourseError
 from course.cli import options
 from course.cli.outputs import check_outputs
-from course.cli.tables import Section, print_sections
+from course.cli.tables import print_sections
+from course.engine.render.sections import Section
 
 if TYPE_CHECKING:
     from course.engine.comparing.seen import Seen

@@ -11,14 +11,16 @@ import click
 
 from course.base.atomic import make_folder, write_text
 from course.base.errors import EffectError
+from course.base.progress import progress_bar
+from course.base.texts import count
 from course.base.version import __version__
 from course.cli.metu import check_not_metu
 from course.cli.options import INTERRUPTED, PATH
 from course.cli.outputs import check_distinct, check_outputs
-from course.cli.progress import progress_bar
-from course.cli.tables import Section, count, print_sections, receipt_sections
+from course.cli.tables import print_sections
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import MODULES
+from course.engine.render.sections import Section, receipt_sections
 
 
 @dataclass(frozen=True)

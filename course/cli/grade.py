@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import click
 
 from course.base.errors import CourseError
+from course.base.texts import count
 from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
 from course.cli.options import FAILED, OUT_FOLDER, choice_options
-from course.cli.tables import count
 
 if TYPE_CHECKING:
     from course.school.grading.classes.grading import ClassResult

@@ -6,8 +6,9 @@ import click
 
 from course.cli import options
 from course.cli.metu import check_camera, converted, told_of, without_place
-from course.cli.tables import Section, print_sections, summary_sections
+from course.cli.tables import print_sections, summary_sections
 from course.engine.formats.metu.suffixes import is_metu
+from course.engine.render.sections import Section
 
 
 @click.command()

@@ -14,6 +14,7 @@ import click
 from course.base.errors import CourseError
 from course.engine.functions.effects import CHECKOUT, begin, own_assignments
 from course.engine.functions.modules import COURSE, meant
+from course.engine.functions.sources import NOTEBOOK, holds, is_notebook
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells have it."""
@@ -74,11 +75,30 @@ def json_path(_ctx: click.Context, _option: click.Parameter, text: str | None) -
 def modules_from(
     ctx: click.Context, _option: click.Parameter, names: tuple[str, ...]
 ) -> tuple[str, ...]:
-    """Return modules in the order of the course from names, several in one separated by commas."""
-    given = [name for text in names for name in text.split(",")]
+    """Return modules in the order of the course from names, several in one separated by commas; or from their files."""
+    files = [
+        Path(text) for text in names if text.endswith((".py", NOTEBOOK)) and Path(text).is_file()
+    ]
+    given = [name for text in names for name in text.split(",") if Path(text) not in files]
     for name in given:
         module_from(ctx, _option, name)
+    if files:
+        if given or len({path.parent for path in files}) > 1:
+            raise click.BadParameter("expected files of one folder, or names of modules")
+        ctx.meta[_FILES] = files
+        given = [module for path in files for module in _modules_of(path)]
     return tuple(name for name in COURSE if not given or name in given)
+
+
+_FILES = "course files"
+"""Where a command keeps the files that were given in the place of modules."""
+
+
+def _modules_of(path: Path) -> tuple[str, ...]:
+    found = holds(path) if is_notebook(path) else tuple({path.stem} & COURSE.keys())
+    if not found:
+        raise click.BadParameter(f"{path} has no module's name, nor functions of one")
+    return found
 
 
 def _instead(ctx: click.Context, name: str) -> str:
@@ -115,12 +135,18 @@ OUT_FOLDER = click.Path(path_type=Path, file_okay=False)
 
 scene_argument = click.argument("scene", metavar="SCENE", type=PATH)
 
-modules_argument = click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
+# Eager, for files given here say which folder is meant.
+modules_argument = click.argument(
+    "modules", nargs=-1, metavar="[MODULE]...", callback=modules_from, is_eager=True
+)
 
 
-def own_folder(_ctx: click.Context, _option: click.Parameter, folder: Path) -> Path:
-    """Return the folder of one's own modules, which must be there."""
-    if not folder.is_dir():
+def own_folder(ctx: click.Context, _option: click.Parameter, folder: Path) -> Path:
+    """Return the folder of one's own modules, or a notebook that has them; it must be there."""
+    if files := ctx.meta.get(_FILES):
+        one: Path = files[0]
+        folder = one if len(files) == 1 and is_notebook(one) else one.parent
+    if not folder.is_dir() and not (is_notebook(folder) and folder.is_file()):
         remedy = "" if CHECKOUT and folder != Path("assignments") else f", {begin()}"
         raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
     return folder
@@ -128,11 +154,11 @@ def own_folder(_ctx: click.Context, _option: click.Parameter, folder: Path) -> P
 
 folder_option = click.option(
     "--folder",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=click.Path(path_type=Path),
     default=own_assignments,
     show_default="assignments",
     callback=own_folder,
-    help="Where the modules are.",
+    help="Where the modules are: programs or notebooks, or a notebook that has them.",
 )
 
 effects_option = click.option(

@@ -9,8 +9,8 @@ from pathlib import Path
 import click
 
 from course.base.errors import CourseError
+from course.base.texts import count
 from course.cli.options import OUT_FOLDER, modules_from
-from course.cli.tables import count
 from course.engine.functions.effects import CHECKOUT, PROJECT
 
 DRAWN_BY = PROJECT / "docs"

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from course.base.errors import CourseError
+from course.base.progress import progress_bar
 from course.cli import options
 from course.cli.metu import check_not_metu
 from course.cli.outputs import check_outputs
-from course.cli.progress import progress_bar
 from course.engine.functions.modules import COURSE
 
 if TYPE_CHECKING:

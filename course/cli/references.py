@@ -4,9 +4,9 @@ from pathlib import Path
 
 import click
 
+from course.base.texts import count
 from course.cli.options import OUT_FILE
 from course.cli.outputs import check_outputs
-from course.cli.tables import count
 from course.engine.functions.effects import PACKAGE
 from course.engine.functions.modules import COURSE
 

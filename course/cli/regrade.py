@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import click
 
 from course.base.errors import CourseError
+from course.base.texts import count
 from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
 from course.cli.options import FOLDER
-from course.cli.tables import count
 
 if TYPE_CHECKING:
     from course.school.grading.checks.result import Result

@@ -10,9 +10,9 @@ import click
 
 from course.base.atomic import make_folder, write_text
 from course.base.errors import OutputError
+from course.base.texts import count
 from course.cli.options import PATH
 from course.cli.outputs import check_outputs
-from course.cli.tables import count
 from course.engine.functions.effects import CHECKOUT, PROJECT
 
 if TYPE_CHECKING:

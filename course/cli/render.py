@@ -14,14 +14,16 @@ import click
 
 from course.base.atomic import write_text
 from course.base.errors import CourseError, OutputError
+from course.base.progress import progress_bar
 from course.cli import options
 from course.cli.metu import check_camera, converted, told_of
 from course.cli.outputs import check_outputs, check_spared
-from course.cli.progress import progress_bar
-from course.cli.tables import print_sections, receipt_sections
+from course.cli.tables import print_sections
 from course.cli.watching import run_again_and_again, times
 from course.engine.formats.metu.suffixes import is_metu
 from course.engine.functions.effects import Effects
+from course.engine.functions.sources import saved_files
+from course.engine.render.sections import receipt_sections
 
 if TYPE_CHECKING:
     from course.engine.render.picture import Picture
@@ -132,7 +134,7 @@ def render(
         arguments = ["render", *(each for each in typed if each != "--watch")]
         folder = Effects(effects).folder
         run_again_and_again(
-            arguments, lambda: [scene, *folder.glob("*.py"), *_named(scene, *times([scene]))]
+            arguments, lambda: [scene, *saved_files(folder), *_named(scene, *times([scene]))]
         )
     _render_all(scene, out, camera, effects, choices, heat_map, receipt_path)
 

@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from shlex import quote
@@ -9,9 +10,10 @@ from shlex import quote
 import click
 
 from course.base.errors import CourseError
+from course.base.texts import count
 from course.cli.options import PATH
-from course.cli.tables import count
 from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import WARM_UP
 
 TEACHING = "docs/guides/teaching.md"
 """The page for who plans a course; its tables are made, on the site and for instructors."""
@@ -20,7 +22,10 @@ TEACHING = "docs/guides/teaching.md"
 @click.command()
 @click.argument("folder", type=PATH)
 @click.option("--instructor", is_flag=True, help="Add the solutions, and how to grade a class.")
-def start(folder: Path, instructor: bool) -> None:
+@click.option(
+    "--notebooks", is_flag=True, help="Make a notebook of each module, to be written in there."
+)
+def start(folder: Path, instructor: bool, notebooks: bool) -> None:
     """Make FOLDER with all that a student works on: stubs, scenes, pages, and settings of VS Code.
 
     FOLDER must be new or empty.
@@ -39,14 +44,24 @@ def start(folder: Path, instructor: bool) -> None:
         raise CourseError("this is a student's copy: its stubs are in assignments/ already")
     solutions = PROJECT / "solutions"
     folders = SCENES | PAGES | ({"solutions": {".py", ".md"}} if instructor else {})
-    made = made_contents(solutions, copy=False, instructor=instructor)
+    make: Callable[[str, str], bytes] | None = None
+    if notebooks:
+        from course.school.notebooks.making import notebook_of
+
+        def make(module: str, text: str) -> bytes:
+            return notebook_of(module, text, PROJECT)
+
+    made = made_contents(solutions, copy=False, instructor=instructor, notebooks=make)
     contents = project_files(PROJECT, LICENSES, folders)
     if instructor:
         contents[TEACHING] = _with_tables(contents[TEACHING].decode()).encode()
     files = write_folder(made | plain_pages(contents), folder)
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")
     click.echo(f"    cd {quote(str(folder))}")
-    click.echo("    course check sampling")
+    if notebooks:
+        click.echo(f"    jupyter lab assignments/{WARM_UP}.ipynb     # or open it in an editor")
+    else:
+        click.echo(f"    course check {WARM_UP}")
     if instructor:
         click.echo(f"To plan lectures and weeks, read {TEACHING}.")
 

@@ -26,6 +26,7 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
     the folder, in .course/checked.json.
     """
     from course.engine.functions.modules import TAUGHT
+    from course.engine.functions.sources import told_place
     from course.school.grading.progress import as_data, next_one, progress
 
     def before(module: str) -> None:
@@ -57,7 +58,7 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
         click.echo("next: nothing; every function is right")
         return
     click.echo(f"next: {coming.module}.{coming.name}, {_state(coming)}")
-    click.echo(f"  write  {_near(coming.file)}:{coming.line}")
+    click.echo(f"  write  {told_place(_near(coming.file), (coming.cell, coming.line))}")
     click.echo(f"  read   {coming.page}")
     click.echo(f"  check  course check {coming.module} --only {coming.name}")
 

@@ -6,10 +6,10 @@ import click
 
 from course.base.atomic import write_text
 from course.base.errors import CourseError
+from course.base.texts import count
 from course.cli.classes import trust_option
 from course.cli.options import OUT_FILE, modules_from
 from course.cli.outputs import check_outputs
-from course.cli.tables import count
 from course.engine.functions.effects import PROJECT
 
 QUESTIONS = 3

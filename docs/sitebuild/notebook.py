@@ -119,5 +119,6 @@ def _shown(place: Place, name: str, cell: Node, outputs: list[Node]) -> Iterator
                 f'<p class="wide"><img src="{address}" alt="{escape(cell["metadata"]["alt"])}"'
                 f' width="{width}" height="{height}" loading="lazy"></p>\n'
             )
-        elif "text/plain" in output["data"]:
-            yield f"```text\n{''.join(output['data']['text/plain'])}\n```\n"
+        elif text := "".join(output["data"].get("text/plain", "")):
+            # A bar that is done is empty.
+            yield f"```text\n{text}\n```\n"

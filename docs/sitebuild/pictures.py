@@ -11,9 +11,9 @@ import click
 from course import load_scene, render
 from course.base.atomic import replacing
 from course.benchmarking.references import scene_hash
-from course.cli.tables import plain_text, receipt_sections
 from course.engine.formats.yaml.loading import Loaded, load_description
 from course.engine.functions.effects import PROJECT, Effects
+from course.engine.render.sections import plain_text, receipt_sections
 from sitebuild import webp
 
 KEPT = PROJECT / "out" / "docs" / "pictures"

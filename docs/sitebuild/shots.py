@@ -6,7 +6,7 @@ from typing import Any
 
 from PIL import Image
 
-from course.cli.tables import count
+from course.base.texts import count
 from sitebuild import pictures
 from sitebuild.place import Place
 

@@ -254,7 +254,7 @@ def test_a_folder_of_functions_with_a_name_that_is_too_long_is_refused(tmp_path:
 
 
 OWN_FILES = {
-    "functions/effects.py": "the functions of one's own, which Python imports all the same",
+    "functions/sources.py": "the functions of one's own, which Python imports all the same",
     "recording/view.py": "its own script",
     "render/cluster/parcel.py": "the course's sources, and files of a scene that has been compiled here",
     "formats/metu/converting.py": "the scene that it has written",

@@ -32,6 +32,7 @@ from tests.docs.blocks import Block, blocks
 
 NOT_RUN = {
     "pip": "installs from the network; its extras are looked up in pyproject.toml",
+    "jupyter": "serves until it is ended; tests/school/notebooks opens it in a browser",
     "apt": "changes the machine",
     "activate": "changes the shell; the file is made by the line above it",
     "pytest": "is what runs this",
@@ -107,7 +108,8 @@ from concurrent.futures import ThreadPoolExecutor
 rays, half = np.ones((6, 8), np.float32), 4
 def walk(part):
     return part.sum(axis=0)
-"""
+""",
+    "docs/guides/notebook.md": "mine = {}",
 }
 """What a piece of Python takes for granted."""
 
@@ -228,6 +230,8 @@ class Page:
                 return f"not run ({NOT_RUN['activate']})"
             case ["apt", "install", "bubblewrap" | "libseccomp2"]:
                 return f"not run ({NOT_RUN['apt']})"
+            case ["jupyter", "lab", file] if Path(file).is_file():
+                return f"not run ({NOT_RUN['jupyter']})"
             case ["python", "-m", "pytest"]:
                 return f"not run ({NOT_RUN['pytest']})"
             case ["python", "-m", module, *rest] if module.partition(".")[0] == "benchmarks":
@@ -516,7 +520,7 @@ def _pip(words: list[str]) -> str:
         case ["install", "-e", "."] | ["install", "penumbra_course-0.1.0-py3-none-any.whl"]:
             pass
         case ["install", "-e", what] | ["install", what] if found := re.fullmatch(
-            r"(?:\.|penumbra-course)\[(\w+)\]", what
+            r"(?:\.|penumbra-course|penumbra_course-0\.1\.0-py3-none-any\.whl)\[(\w+)\]", what
         ):
             if found[1] not in extras():
                 raise FollowingError(f"pyproject.toml has no extra {found[1]}")

@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
+from importlib.abc import Loader
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -19,6 +20,15 @@ from typing import Any
 
 from course.base.errors import CourseWarning, EffectError, Ended
 from course.engine.functions.modules import COURSE, meant
+from course.engine.functions.notebook.reading import LARGEST_FILE
+from course.engine.functions.sources import (
+    cells_of,
+    find_module,
+    is_notebook,
+    named,
+    program_of,
+    saved_files,
+)
 
 PACKAGE = Path(__file__).resolve().parents[2]
 """The package ``course``."""
@@ -33,10 +43,20 @@ PROJECT = PACKAGE.parent if CHECKOUT else PACKAGE.parent / "penumbra_course_file
 def own_assignments() -> Path:
     """The folder of the functions that are to be written: the current folder's, or the project's where it has none.
 
-    An installed wheel has none, and near a folder of `course start` the project's aren't meant.
+    An installed wheel has none, and near a folder of `course start` the project's aren't meant. In a folder of that
+    name, where notebooks are run, it is the current one.
     """
     here = Path("assignments")
+    if not here.is_dir() and _inside():
+        return Path()
     return here if here.is_dir() or not CHECKOUT or _way() else PROJECT / here
+
+
+def _inside() -> bool:
+    """Whether the current folder is the assignments of a folder of `course start`, and holds some."""
+    here = Path.cwd()
+    own = here.name == "assignments" and here.parent != PROJECT
+    return own and any(path.stem in COURSE for path in saved_files(here))
 
 
 def begin() -> str:
@@ -59,10 +79,6 @@ def _way() -> str:
     names = [os.path.relpath(folder) for folder in near[:3]]
     ways = [f'`cd "{name}"`' if " " in name else f"`cd {name}`" for name in names]
     return f"{' or '.join(ways)} goes to your course" if ways else ""
-
-
-LARGEST_FILE = 2_000_000
-"""Bytes of a file of functions."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +113,8 @@ class Effects:
     def __init__(
         self, folder: str | Path | None = None, trusted: bool | None = None, *, filled: bool = False
     ) -> None:
-        if folder is None and Path("assignments").is_dir() and Path.cwd() != PROJECT:
+        own = Path("assignments").is_dir() and Path.cwd() != PROJECT
+        if folder is None and (own or _inside()):
             # In a folder made by `course start`.
             folder = "mine"
         elif folder is None:
@@ -127,9 +144,11 @@ class Effects:
         elif str(folder) == "solutions" and not path.is_dir():
             path = PROJECT / path
         # Path.is_dir raises an error of its own for a name that is too long.
-        if not os.path.isdir(path):  # noqa: PTH112
+        alone = is_notebook(path) and os.path.isfile(path)  # noqa: PTH113
+        if not alone and not os.path.isdir(path):  # noqa: PTH112
             raise EffectError(
-                f"no folder {path} with effect functions; --effects takes mine, solutions, assignments or a folder"
+                f"no folder {path} with effect functions; --effects takes mine, solutions, assignments, a folder "
+                "or a notebook"
             )
         self.folder = path
         self.trusted = path.resolve() == PROJECT / "solutions" if trusted is None else trusted
@@ -164,10 +183,12 @@ class Effects:
     def written(self, module: str, name: str) -> bool:
         """True if the folder has the function, and its last word isn't that it is not written yet."""
         if module not in self._written:
-            file = self.folder / f"{module}.py"
-            there = file.is_file()
-            self._written[module] = written_functions(file) if there else frozenset()
-            if self.mixed and not there and (near := misnamed(file)):
+            there = find_module(self.folder, module)
+            self._written[module] = (
+                frozenset() if there is None else written_in(program_of(there, module), module)
+            )
+            file = named(self.folder, module)
+            if self.mixed and there is None and (near := misnamed(file)):
                 warnings.warn(
                     f"{file} is missing, so its functions count as not written; is it {near}?",
                     CourseWarning,
@@ -210,7 +231,7 @@ class Effects:
         known = self._functions.get((module, name))
         if known is not None:
             return known
-        file = self.folder / f"{module}.py"
+        file = find_module(self.folder, module) or named(self.folder, module)
         function: Callable[..., Any] | None = getattr(self._module(module), name, None)
         if function is None or not callable(function):
             raise EffectError(f"{file} has no function {name}")
@@ -224,9 +245,13 @@ class Effects:
 
     def _tell_of_slip(self, module: str, name: str) -> None:
         """Warn of a file that has no such function, but one with a name that is much like it."""
-        file = self.folder / f"{module}.py"
         others = [each for each in self._written[module] if each not in COURSE[module]]
-        if others and not _defines(file, name) and (near := get_close_matches(name, others, 1)):
+        file = find_module(self.folder, module) if others else None
+        if (
+            file
+            and not _defines(program_of(file, module), name)
+            and (near := get_close_matches(name, others, 1))
+        ):
             warnings.warn(
                 f"{file} has no {name}, and a {near[0]}: {name} counts as not written",
                 CourseWarning,
@@ -235,7 +260,8 @@ class Effects:
 
     def _module(self, name: str) -> ModuleType:
         if name not in self._modules:
-            self._modules[name] = _import_file(self.folder / f"{name}.py")
+            file = find_module(self.folder, name) or named(self.folder, name)
+            self._modules[name] = _import_file(file, name)
         return self._modules[name]
 
 
@@ -262,15 +288,15 @@ class NothingWritten(Alone):
         """No file is read, so none can have a slip."""
 
 
-def written_functions(file: Path) -> frozenset[str]:
-    """Names in a module, without functions that only raise NotImplementedError in the end, as stubs do.
+def written_in(text: bytes | str, module: str) -> frozenset[str]:
+    """Names in a module's text, without functions that only raise NotImplementedError in the end, as stubs do.
 
-    A file that Python can't read has every name of the module: importing it says what is wrong.
+    A text that Python can't read has every name of the module: importing it says what is wrong.
     """
     try:
-        body = ast.parse(file.read_bytes()).body
+        body = ast.parse(text).body
     except (SyntaxError, ValueError):
-        return frozenset(COURSE.get(file.stem, ()))
+        return frozenset(COURSE.get(module, ()))
     names: set[str] = set()
     for node in body:
         if isinstance(node, ast.FunctionDef):
@@ -302,9 +328,9 @@ def misnamed(file: Path) -> Path | None:
     return next(begun, None) or next((other for other in others if other.stem == alike), None)
 
 
-def _defines(file: Path, name: str) -> bool:
-    """True if a file has the function, written or not."""
-    body = ast.parse(file.read_bytes()).body
+def _defines(text: bytes, name: str) -> bool:
+    """True if a module's text has the function, written or not."""
+    body = ast.parse(text).body
     return any(isinstance(node, ast.FunctionDef) and node.name == name for node in body)
 
 
@@ -358,17 +384,17 @@ class Bound:
         return SimpleNamespace(**{name: self.function(module, name, asked_by) for name in names})
 
 
-def _import_file(path: Path) -> ModuleType:
-    """Import a file under a name of its own, so that two folders with equal names don't meet."""
+def _import_file(path: Path, stem: str) -> ModuleType:
+    """Import a module's file under a name of its own, so that two folders with equal names don't meet."""
     if not path.is_file():
         raise EffectError(f"{path} is missing; the scene needs its functions")
-    if path.stat().st_size > LARGEST_FILE:
+    if not is_notebook(path) and path.stat().st_size > LARGEST_FILE:
         # Python would read all of it, whatever its size.
         raise EffectError(
             f"{path}: more than {LARGEST_FILE:,} bytes: too large for a file of functions"
         )
-    name = f"course_effects.{path.parent.name}.{path.stem}"
-    spec = spec_from_file_location(name, path)
+    name = f"course_effects.{path.parent.name}.{stem}"
+    spec = spec_from_file_location(name, path, loader=_loader(name, path, stem))
     if spec is None or spec.loader is None:
         raise EffectError(f"{path} can't be imported")
     module = module_from_spec(spec)
@@ -386,3 +412,13 @@ def _import_file(path: Path) -> ModuleType:
         # Scripts like to go to their own folder; outputs and other modules are named from ours.
         os.chdir(here)
     return module
+
+
+def _loader(name: str, path: Path, stem: str) -> Loader | None:
+    """What imports a notebook's cells; None for a program, which Python itself imports."""
+    if not is_notebook(path):
+        return None
+    # Here, for programs need nothing of it.
+    from course.engine.functions.notebook.importing import CellsLoader
+
+    return CellsLoader(name, path.absolute(), cells_of(path, stem))

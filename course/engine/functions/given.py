@@ -30,7 +30,11 @@ class GivenEffects(Effects):
 
     def written(self, module: str, name: str) -> bool:
         """See ``Effects``."""
-        return (module, name) in self._given
+        assert self._rest is not None
+        # In a folder of one's own the others are one's own, too.
+        return (module, name) in self._given or (
+            self._rest.mixed and self._rest.written(module, name)
+        )
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """See ``Effects``."""

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from functools import update_wrapper
 from inspect import unwrap
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ import numpy as np
 from course.base.errors import CourseError, CourseWarning, Ended, FunctionError
 from course.engine.functions.contracts import Contract, ResultContract, contract
 from course.engine.functions.signatures import CONTRACTS
+from course.engine.functions.sources import spot
 
 LONGEST_DEVIATION = 1e-3
 """Largest difference of a direction's length from 1: the contract's 1e-5, and some more for the renderer's rounding."""
@@ -156,8 +158,12 @@ class Guard:
         ]
         line = ""
         if own:
-            text = linecache.getline(own[-1].filename, own[-1].lineno or 0).strip()
-            line = f" in line {own[-1].lineno} of {Path(own[-1].filename).name}: {text}"
+            name, number = own[-1].filename, own[-1].lineno or 0
+            text = linecache.getline(name, number).strip()
+            place = spot(name, number, Path(self._file.name))
+            # In a program the function's own file is told before.
+            named = f"line {number} of {Path(name).name}" if place.endswith(f":{number}") else place
+            line = f" in {named}: {text}"
         try:
             said = f": {error}".removesuffix(": ")
         except Exception:  # noqa: BLE001
@@ -180,7 +186,30 @@ class Guard:
     def _place(self) -> str:
         """File and line of the function, as editors know them."""
         code = getattr(unwrap(self._function), "__code__", None)
-        return f"{self._file}:{code.co_firstlineno}" if code else str(self._file)
+        if code is None:
+            return str(self._file)
+        return spot(code.co_filename, code.co_firstlineno, self._file)
+
+
+def asked_in(frame: FrameType | None) -> str:
+    """The function of a student's that a thread is in, and the line where it is; empty where it is in none.
+
+    ``frame``: the innermost of the thread
+    """
+    inner: list[FrameType] = []
+    while frame is not None:
+        if frame.f_code is Guard.__call__.__code__ and inner:
+            guard = frame.f_locals["self"]
+            own = next((o for o in inner if not _is_librarys(o.f_code.co_filename)), inner[-1])
+            place = spot(own.f_code.co_filename, own.f_lineno, guard._file)
+            return f"{guard._name} ({place})"
+        inner.append(frame)
+        frame = frame.f_back
+    return ""
+
+
+def _is_librarys(file: str) -> bool:
+    return "site-packages" in file or file.startswith((os.path.dirname(os.__file__), "<"))  # noqa: PTH120
 
 
 def _lent(argument: Any) -> Any:

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
-from course.engine.functions.effects import Effects
+from course.engine.functions.given import Given
 from course.engine.recording.recording import record
 from course.engine.recording.stages import RecordedEffects
 from course.engine.recording.story import Story
-from course.engine.scene.scene import Scene, load_scene
+from course.engine.scene.scene import Scene, effects_of, load_scene
 
 
 def pixel(
@@ -19,7 +19,7 @@ def pixel(
     spp: int | None = None,
     size: tuple[int, int] | None = None,
     seed: int | None = None,
-    effects: str | Path | None = None,
+    effects: str | Path | Given | None = None,
 ) -> Story:
     """Tell why a pixel of a picture has its colour, and what the rays of its samples met.
 
@@ -27,7 +27,7 @@ def pixel(
 
     Parameters
     ----------
-    scene : as it was loaded, or its file
+    scene : as it was loaded, or its file or name; see `course.load_scene`
     x, y : column and row of the upper left pixel, from the upper left corner of the picture
     width, height : of a rectangle [pixels]
     spp, size, seed : see `course.render`
@@ -41,7 +41,7 @@ def pixel(
         See `course.load_scene` and `course.render`.
     """
     if not isinstance(scene, Scene):
-        functions = RecordedEffects(Effects(effects))
+        functions = RecordedEffects(effects_of(effects))
         with functions.building():
             scene = load_scene(scene, functions)
     return Story(record(scene, x, y, width, height, spp=spp, size=size, seed=seed))

@@ -70,6 +70,10 @@ class RecordedEffects(Effects):
 
         return Watched(self._recorded.function(module, name), note)
 
+    def written(self, module: str, name: str) -> bool:
+        """See ``Effects``."""
+        return self._recorded.written(module, name)
+
 
 def _some_numbers(result: Any) -> list[list[Any]]:
     """Of each result that is an array, its size and at most SPREAD of its numbers."""

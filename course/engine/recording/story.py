@@ -4,7 +4,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from html import escape
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,10 @@ OTHER = 1e-3
 
 MOST_NAMES = 3
 """Objects that are named in a line."""
+
+
+WIDE = 100
+"""Columns of a printed story."""
 
 
 @dataclass
@@ -327,16 +331,20 @@ class Story:
     def __repr__(self) -> str:
         return f"<Story of {self.tree.text}; {self.reason}>"
 
+    def __str__(self) -> str:
+        return "\n".join(_lines(self.tree))
+
     def _repr_html_(self) -> str:
         """Show the view of the rays in a notebook; one that isn't trusted has no frames, and shows the text in it."""
-        from course.engine.recording.view import page
+        from course.engine.recording.inline import frame
 
-        frame = "width: 100%; height: 56rem; border: 0"
-        text = f"{self.tree.text}; {self.reason}. A trusted notebook shows the rays."
-        return (
-            f'<iframe title="Rays of a pixel" style="{frame}" srcdoc="{escape(page(self))}">'
-            f"{escape(text)}</iframe>"
-        )
+        return frame(self)
+
+    def _repr_png_(self) -> bytes:
+        """Show the rays where no page is shown."""
+        from course.engine.recording.inline import still
+
+        return still(self)
 
     def to_dict(self) -> dict[str, Any]:
         """All that is known, for programs: numbers, strings and lists."""
@@ -372,6 +380,13 @@ class Story:
                 vars(one) | {"calls": [vars(call) for call in one.calls]} for one in self.segments
             ],
         }
+
+
+def _lines(line: Line, depth: int = 0) -> list[str]:
+    """A line and those below it, indented, none longer than a terminal is wide."""
+    indent = "  " * depth
+    own = wrap(line.text, WIDE, initial_indent=indent, subsequent_indent=f"{indent}    ")
+    return own + [each for one in line.below for each in _lines(one, depth + 1)]
 
 
 def _shafts(shadows: Sequence[Segment]) -> str:

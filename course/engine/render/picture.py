@@ -2,13 +2,18 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from course.base.errors import CourseError
 from course.engine.core.film import AnyFilm
 from course.engine.core.types import Floats32
 from course.engine.render.receipt import Receipt
 from course.engine.scene.scene import SceneSettings
+
+if TYPE_CHECKING:
+    from course.engine.render.compared import ComparedPictures
 
 
 @dataclass(frozen=True)
@@ -68,7 +73,42 @@ class Picture:
             f" {receipt.wall_seconds:.2f} s on {receipt.threads} thread{'s' * (receipt.threads > 1)}>"
         )
 
+    def error(self, other: "Picture") -> float:
+        """Root-mean-square difference from another picture of the same size [radiance].
+
+        Raises CourseError: it has another size.
+        """
+        _check_size(self, other)
+        difference = self.linear.astype(np.float64) - other.linear
+        return float(np.sqrt(np.mean(np.square(difference))))
+
+    def compare(self, other: "Picture") -> "ComparedPictures":
+        """Set another picture of the same size beside it, which a notebook shows under a slider.
+
+        Raises CourseError: it has another size.
+        """
+        from course.engine.render.compared import ComparedPictures
+
+        _check_size(self, other)
+        return ComparedPictures(self, other)
+
     def _repr_png_(self) -> bytes:
         from course.engine.formats.pictures.files import encode_png
 
         return encode_png(self.shown, self.settings.display)
+
+    def _repr_html_(self) -> str:
+        """Show the picture, and its receipt where it is asked for; what takes away this page shows the PNG."""
+        from course.engine.render.inline import picture_html
+
+        return picture_html(self)
+
+
+def _check_size(one: Picture, other: Picture) -> None:
+    sizes = [each.film.samples.shape for each in (one, other)]
+    if sizes[0] != sizes[1]:
+        (h, w), (height, width) = sizes
+        raise CourseError(
+            f"pictures of {w} x {h} and {width} x {height} pixels can't be compared; "
+            "render both with the same size="
+        )

@@ -3,8 +3,10 @@
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from course.engine.render.sections import plain_text, receipt_sections, receipt_table
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class Receipt:
     """Counts and times of one render.
 
@@ -64,3 +66,9 @@ class Receipt:
             if told[part] is None:
                 del told[part]
         return told
+
+    def __repr__(self) -> str:
+        return plain_text("receipt", receipt_sections(self.to_dict()))
+
+    def _repr_html_(self) -> str:
+        return receipt_table(self)

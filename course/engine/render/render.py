@@ -6,6 +6,7 @@ from time import monotonic
 from typing import Any
 
 from course.base.errors import CourseError
+from course.base.progress import reported
 from course.base.version import __version__
 from course.engine.casters.choice import chosen
 from course.engine.core.film import AnyFilm
@@ -43,7 +44,7 @@ def render(
     time_limit: float | None = None,
     since: float | None = None,
     error: float | None = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     start: Picture | None = None,
     compiled: bool | None = None,
     address: str | None = None,
@@ -70,7 +71,8 @@ def render(
     since : ``time.monotonic()`` from which a time limit counts; None for now
     error : root-mean-square error of the whole picture [radiance] at which sampling ends: samples go where the
         estimated error is, with ``spp`` a pixel on average at most
-    progress : called from this thread with the share done, and whether the whole picture has been covered once
+    progress : called from this thread with the share done, and whether the whole picture has been covered once; or
+        whether to show a bar, by None in a notebook alone
     compiled : whether Numba's loops are used (``pip install .[fast]``), which give the same picture sooner; None means
         where that pays
     start : a picture of the same scene and settings with fewer samples, to be continued
@@ -112,7 +114,8 @@ def render(
         film, schedule = mode.make(replace(job, compiled=loops.film), loops.tracer, bound)
         if time_limit is not None:
             executor.limit_time(time_limit, since)
-        complete = render_film(film, schedule, executor, progress)
+        report = closed.enter_context(reported(progress, "rendering"))
+        complete = render_film(film, schedule, executor, report)
     receipt = _receipt(job, bound, loops.tracer, film, schedule, executor, monotonic() - began)
     settings = replace(settings, display=display)
     return Picture(film, settings, receipt, complete, executor.interrupted)

@@ -17,6 +17,7 @@ from course.engine.core.schedule import Executor, Tick
 from course.engine.core.tiles import Work
 from course.engine.core.tracer import Tracer
 from course.engine.core.types import Floats32
+from course.engine.render.endless import end_endless
 
 TICK = 0.05
 """Seconds between two checks of progress and Ctrl-C in the main thread."""
@@ -108,6 +109,8 @@ class ThreadedExecutor(Executor):
             self.interrupted = True
         finally:
             run.stop = True
+            if self.interrupted:
+                end_endless(threads)
             for thread in threads:
                 thread.join(self._grace)
         if self.interrupted:

@@ -1,5 +1,6 @@
 """A scene, ready to be rendered as often and in as many ways as one likes; and how it is to be rendered."""
 
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +11,7 @@ from course.engine.formats.pictures.display import SRGB, Display
 from course.engine.formats.yaml.description import DenoiseDescription, SubdivisionDescription
 from course.engine.formats.yaml.loading import Loaded, load_description
 from course.engine.formats.yaml.overriding import Overrides
-from course.engine.functions.effects import Effects
+from course.engine.functions.effects import PROJECT, Effects
 from course.engine.functions.given import Given, GivenEffects
 from course.engine.scene.building.world import Compiled, compile_scene
 
@@ -102,7 +103,7 @@ def load_scene(
 
     Parameters
     ----------
-    path : the YAML file
+    path : the YAML file; or the name of one of the course's scenes, such as "soft_shadows" or "before/soft_shadows"
     effects : whose functions to call: "mine", "solutions", "assignments", or a folder of modules; or functions
         themselves by their names, as in ``{"point_on_sphere": point_on_sphere}``, with the others as by None. None
         means "mine" in a folder made by `course start`, and the solutions elsewhere, where they are.
@@ -128,13 +129,26 @@ def load_variant(
 
     Raises SceneError, EffectError as `load_scene` does, and for an override of something that isn't there.
     """
-    bound = _effects(effects)
-    loaded = load_description(Path(path), overrides)
+    bound = effects_of(effects)
+    loaded = load_description(scene_file(path), overrides)
     described(settings_of(loaded))
     return Scene(loaded, compile_scene(loaded, bound), bound)
 
 
-def _effects(given: str | Path | Effects | Given | None) -> Effects:
+def scene_file(given: str | Path) -> Path:
+    """The file that is meant: itself, or the course's scene of that name, as one's own folder has it or the project."""
+    path = Path(given)
+    # A name that is too long for a file isn't there either.
+    if path.suffix or path.is_absolute() or os.path.exists(path):  # noqa: PTH110
+        return path
+    name = Path("scenes", f"{path}.yaml")
+    # A notebook is run in the folder assignments.
+    tried = (name, Path("..") / name if Path.cwd().name == "assignments" else name, PROJECT / name)
+    return next((one for one in tried if os.path.isfile(one)), path)  # noqa: PTH113
+
+
+def effects_of(given: str | Path | Effects | Given | None) -> Effects:
+    """The functions that are meant; see ``load_scene``."""
     if isinstance(given, Effects):
         return given
     if isinstance(given, Mapping):

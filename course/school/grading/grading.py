@@ -18,6 +18,7 @@ from course.school.grading.checks.result import Result, Status, cleaned, trouble
 from course.school.grading.checks.running import run_checks
 from course.school.grading.errors import StudentError
 from course.school.grading.pictures.whole import ALL, NAME, Together
+from course.school.grading.places import located
 from course.school.grading.references import SOLUTIONS, reference
 from course.school.grading.report import Report
 from course.school.grading.submissions import why_absent
@@ -38,6 +39,7 @@ def grade(
     only: Callable[[Check], bool] | None = None,
     each: Callable[[Result], None] | None = None,
     folder: Path | None = None,
+    files: Mapping[str, Path] | None = None,
 ) -> Report:
     """Grade the modules of one submission.
 
@@ -49,6 +51,7 @@ def grade(
     only : which checks to run; all if not given
     each : called with every result as soon as it is there
     folder : where the files should be, for what is said of those that aren't; only their names if not given
+    files : module -> where its text is from, for the places that are told of; the text itself if not given
     """
     limits = limits or Limits()
     shut_in = shut_in or sandbox()
@@ -73,6 +76,8 @@ def grade(
 
     def tell(result: Result) -> None:
         result = cleaned(result)
+        if (file := (files or {}).get(result.module)) is not None:
+            result = located(result, file)
         results.append(result)
         if each is not None:
             each(result)

@@ -15,8 +15,10 @@ from course.base.errors import OutputError
 from course.base.version import __version__
 from course.engine.functions.effects import PACKAGE
 from course.engine.functions.modules import COURSE, WARM_UP
+from course.engine.functions.sources import named, told_place
 from course.school.grading.checks.check import Check
 from course.school.grading.grading import grade
+from course.school.grading.places import place_of
 from course.school.grading.references import references
 from course.school.grading.report import FunctionResults, docs_page, findings, grouped, reproduce
 from course.school.grading.submissions import find_modules, read_found
@@ -39,6 +41,7 @@ class FunctionProgress:
     again : the command that runs this check again
     page : of the docs
     file, line : where the function begins
+    cell : in which of a notebook's cells that line is; 0 in a program
     """
 
     module: str
@@ -52,6 +55,12 @@ class FunctionProgress:
     page: str
     file: str
     line: int
+    cell: int = 0
+
+    @property
+    def place(self) -> str:
+        """Where it begins, as a message has it."""
+        return told_place(self.file, (self.cell, self.line))
 
 
 def progress(
@@ -65,10 +74,11 @@ def progress(
 
     Parameters
     ----------
-    folder : of the modules' files
+    folder : of the modules' files, or a notebook
     before : called with the name of each module that has to be checked
     """
-    kept = _read(folder / KEPT)
+    remembered = _remembered(folder)
+    kept = _read(remembered)
     for module in modules:
         paths = find_modules(folder, (module,))
         sources = read_found(folder, paths)
@@ -76,23 +86,23 @@ def progress(
         known = kept.get(module, {})
         if known.get("key") != key:
             before(module)
-            known = {"key": key, "functions": _checked(folder, module, sources)}
-            kept = _read(folder / KEPT) | {module: known}
-            _write(folder / KEPT, kept)
-        yield _placed(known["functions"], paths.get(module, folder / f"{module}.py"))
+            known = {"key": key, "functions": _checked(folder, module, sources, paths)}
+            kept = _read(remembered) | {module: known}
+            _write(remembered, kept)
+        yield _placed(known["functions"], paths.get(module, named(folder, module)))
 
 
 def some_of(folder: Path, module: str, names: Collection[str]) -> list[FunctionProgress]:
     """Some functions of a module, checked before the others; none where that saves no time.
 
-    Raises SubmissionError: the file can't be read.
+    Raises CourseError: the file can't be read.
     """
     paths = find_modules(folder, (module,))
     sources = read_found(folder, paths)
-    known = _read(folder / KEPT).get(module, {}).get("key") == _key(sources.get(module))
+    known = _read(_remembered(folder)).get(module, {}).get("key") == _key(sources.get(module))
     if known or module not in sources or not 0 < len(names) < len(COURSE[module]):
         return []
-    functions = _checked(folder, module, sources, lambda check: check.function in names)
+    functions = _checked(folder, module, sources, paths, lambda check: check.function in names)
     return _placed(functions, paths[module])
 
 
@@ -108,33 +118,31 @@ def next_one(functions: list[FunctionProgress]) -> FunctionProgress | None:
     return ranked[0] if ranked else None
 
 
-def line_of(path: Path, function: str) -> int:
-    """The line that begins a function; 1 where there is none."""
-    try:
-        rows = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return 1
-    begins = f"def {function}("
-    return next((n for n, row in enumerate(rows, start=1) if row.startswith(begins)), 1)
-
-
 def _checked(
     folder: Path,
     module: str,
     sources: dict[str, bytes],
+    files: dict[str, Path],
     only: Callable[[Check], bool] | None = None,
 ) -> list[dict[str, Any]]:
     report = grade(
-        sources, references(), modules=(module,), shut_in=plain(), only=only, folder=folder
+        sources,
+        references(),
+        modules=(module,),
+        shut_in=plain(),
+        only=only,
+        folder=folder,
+        files=files,
     )
     return [_told(function) for each in grouped(report) for function in each.functions]
 
 
 def _placed(functions: list[dict[str, Any]], path: Path) -> list[FunctionProgress]:
     """With the file and the lines where they begin."""
+    places = [place_of(path, one["module"], one["name"]) for one in functions]
     return [
-        FunctionProgress(**function, file=str(path), line=line_of(path, function["name"]))
-        for function in functions
+        FunctionProgress(**function, file=str(path), line=line, cell=cell)
+        for function, (cell, line) in zip(functions, places, strict=True)
     ]
 
 
@@ -162,6 +170,11 @@ def _told(function: FunctionResults) -> dict[str, Any]:
 
 
 # ---------------------------------------------------------------- what is remembered
+
+
+def _remembered(folder: Path) -> Path:
+    """Where it is; beside a notebook that is given alone."""
+    return (folder.parent if folder.is_file() else folder) / KEPT
 
 
 def _key(source: bytes | None) -> str:

@@ -13,10 +13,9 @@ from course.base.errors import CourseError
 from course.base.inputs import InputLimit, opened
 from course.engine.functions.effects import misnamed
 from course.engine.functions.modules import COURSE
+from course.engine.functions.notebook.reading import LARGEST_FILE
+from course.engine.functions.sources import NOTEBOOK, cells_of, find_module, is_notebook, named
 from course.school.grading.errors import StudentError
-
-LARGEST_FILE = 2_000_000
-"""Bytes of one file that are read; the worker refuses less than that, with a message of its own."""
 
 ANY_SIZE = InputLimit(1 << 63)
 """Files of any size are opened, for only their beginning is read."""
@@ -36,12 +35,17 @@ def why_absent(
     source : the file; None where there is none
     folder : where it should be, which is told with it; None if that is nobody's business
     """
-    path = Path(f"{module}.py") if folder is None else folder / f"{module}.py"
+    path = Path(f"{module}.py") if folder is None else named(folder, module)
     if source is None:
+        if folder is not None and is_notebook(folder):
+            return StudentError("missing", f"{path} has no {module}", module_wide=True)
         near = None if folder is None else misnamed(path)
         hint = "" if folder is None or near is None else f" (is it {near.relative_to(folder)}?)"
         return StudentError("missing", f"{path} is missing{hint}", module_wide=True)
     if not source.strip():
+        if folder is not None and (found := find_module(folder, module)) and is_notebook(found):
+            why = f"{found} defines none of its functions"
+            return StudentError("missing", why, module_wide=True)
         return StudentError("missing", f"{path} is empty", module_wide=True)
     return None
 
@@ -49,18 +53,23 @@ def why_absent(
 def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[str, Path]:
     """Where the files of modules are: in a folder, or else below it; a module that isn't there is left out.
 
-    Raises SubmissionError: one isn't in the folder, and more than once below it; or the folder can't be read.
+    Raises CourseError: one isn't in the folder, and more than once below it; or the folder can't be read.
+    ``folder``: or a notebook alone
     """
     found: dict[str, Path] = {}
     for module in modules:
         top = folder / f"{module}.py"
         with readable(folder):
-            # A file at the top is meant, whatever lies deeper.
-            paths = [top] if os.path.lexists(top) else sorted(folder.rglob(top.name))
-            paths = [path for path in paths if path == top or "__MACOSX" not in path.parts]
+            # A file at the top is meant, whatever lies deeper, and a program before a notebook.
+            here = top if os.path.lexists(top) else find_module(folder, module)
+            paths = [here] if here else []
+            for name in (top.name, f"{module}{NOTEBOOK}"):
+                below = [] if paths or folder.is_file() else sorted(folder.rglob(name))
+                paths += [path for path in below if "__MACOSX" not in path.parts]
         if len(paths) > 1:
             listed = ", ".join(map(str, paths[:3]))
-            raise SubmissionError(f"{folder}: {module}.py is in it more than once: {listed}")
+            name = paths[0].name
+            raise SubmissionError(f"{folder}: {name} is in it more than once: {listed}")
         if paths:
             found[module] = paths[0]
     return found
@@ -69,13 +78,16 @@ def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[s
 def read_found(folder: Path, paths: Mapping[str, Path]) -> dict[str, bytes]:
     """Modules that `find_modules` has found in a folder.
 
-    Raises SubmissionError: one is a link, is no file, or can't be read.
+    Raises CourseError: one is a link, is no file, or can't be read.
     """
     found: dict[str, bytes] = {}
     with readable(folder):
         for module, path in paths.items():
             if path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
                 raise SubmissionError(f"{path}: is a link; submit the file itself")
+            if is_notebook(path):
+                found[module] = cells_of(path, module).text
+                continue
             with opened(path, "file of a submission", ANY_SIZE, SubmissionError) as file:
                 found[module] = file.read(LARGEST_FILE)
     return found

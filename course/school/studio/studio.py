@@ -24,6 +24,7 @@ from course.engine.formats.yaml.document import KeyPath
 from course.engine.formats.yaml.loading import load_description
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.functions.modules import COURSE
+from course.engine.functions.sources import saved_files
 from course.school.studio.differing import Shot, coloured, deviations, rms, share_differing
 from course.school.studio.engine import ENGINE, NO_RAYS
 from course.school.studio.keys import Slider, sliders
@@ -528,7 +529,7 @@ class Studio:
     def _files(self) -> Iterable[Path]:
         yield self.scene
         if self.mine is not None:
-            yield from self.folder.glob("*.py")
+            yield from saved_files(self.folder)
 
     def _times(self) -> dict[Path, tuple[int, int]]:
         """When each file was saved [ns], and its bytes."""

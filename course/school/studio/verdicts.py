@@ -12,6 +12,7 @@ from time import monotonic
 from typing import Any
 
 from course.engine.functions.modules import COURSE
+from course.engine.functions.sources import find_module, named
 from course.school.grading.progress import FunctionProgress, next_one
 from course.school.studio.checker import Checker
 
@@ -171,7 +172,7 @@ class Verdicts:
             "points": sum(one.points for one in every),
             "of": sum(10 * len(names) for names in COURSE.values()),
             "next": None if coming is None else f"{coming.module}.{coming.name}",
-            "where": None if coming is None else f"{coming.file}:{coming.line}",
+            "where": None if coming is None else coming.place,
             "page": None if coming is None else coming.page,
         }
 
@@ -186,11 +187,10 @@ class Verdicts:
 
     def _hint(self, module: str, here: bool) -> str:
         """What is said of a module whose file was deleted or renamed, or of which the picture shows nothing."""
-        file = self.folder / f"{module}.py"
         if not here:
             return ""
-        if not file.is_file():
-            return f"There is no {file}: none of it is yours."
+        if find_module(self.folder, module) is None:
+            return f"There is no {named(self.folder, module)}: none of it is yours."
         if self.needs and not any(need.startswith(f"{module}.") for need in self.needs):
             return (
                 "This picture calls none of them: what the checks say is all there is of them here."

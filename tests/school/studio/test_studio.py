@@ -173,9 +173,7 @@ def test_what_belongs_to_the_view_before_says_so(studio: Studio) -> None:
     assert mine(studio)["samples"] == mine(studio)["most"] == DONE
 
 
-def test_the_story_of_a_pixel_belongs_to_the_view_that_is_shown(
-    studio: Studio, work: Path
-) -> None:
+def test_the_story_of_a_pixel_belongs_to_the_view_that_is_shown(studio: Studio, work: Path) -> None:
     write(work, RIGHT)
     until(lambda: mine(studio)["yours"] and whole(studio))
     for side in ("mine", "course"):

@@ -24,6 +24,7 @@ from course.engine.formats.meshes.gltf import files_beside
 from course.engine.formats.yaml.loading import Loaded
 from course.engine.formats.yaml.named_files import with_files
 from course.engine.functions.effects import PACKAGE, Effects
+from course.engine.functions.sources import saved_files
 from course.engine.loops.library import available as packets_available
 from course.engine.render.binding import bind
 from course.engine.render.memory import keep_freed_memory
@@ -58,7 +59,7 @@ def pack(scene: Scene) -> Parcel:
     description = with_files(loaded.description, files.add)
     # Lines are for messages about mistakes, and a scene that has been compiled here has none.
     document = replace(loaded.document, lines={})
-    functions = {path.name: path.read_bytes() for path in sorted(scene.effects.folder.glob("*.py"))}
+    functions = {path.name: path.read_bytes() for path in sorted(saved_files(scene.effects.folder))}
     effects = (scene.effects.folder.resolve().name, scene.effects.trusted, functions)
     content = pickle.dumps((description, document, loaded.path.name, files.contents, effects))
     return Parcel(content, sha256(content).hexdigest())

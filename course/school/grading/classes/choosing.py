@@ -2,25 +2,26 @@
 
 import json
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
-from course.engine.functions.modules import COURSE
+from course.engine.functions.notebook.reading import (
+    LARGEST_FILE,
+    LARGEST_NOTEBOOK,
+    Notebook,
+    NotebookError,
+    converted,
+    modules_defined,
+    read_notebook,
+)
 from course.school.grading.classes.engines import apart
 from course.school.grading.classes.entries import Entry, archive_suffix
 from course.school.grading.classes.names import NOTEBOOK, PYTHON, NamedFile, read_name
-from course.school.grading.classes.notebooks import Notebook, converted, read_notebook
-from course.school.grading.submissions import LARGEST_FILE, SubmissionError
-
-LARGEST_NOTEBOOK = 20_000_000
-"""Bytes; pictures are part of a notebook."""
+from course.school.grading.submissions import SubmissionError
 
 MOST_READ = 50
 """Files that are looked into where no name tells."""
 
 MOST_LISTED = 4
-
-_DEFINED = re.compile(rb'(?:^|"|\\n)[ \t]*(?:async\s+)?def\s+(\w+)', re.MULTILINE)
-"""In a program at the beginning of a line, in a notebook at that of a string or after an escaped end of line."""
 
 _WRITES = re.compile(rb"%%(?:write)?file\b")
 """A cell that writes a file."""
@@ -47,19 +48,6 @@ def choose(entries: Sequence[Entry], modules: tuple[str, ...], remarks: list[str
     if not sources:
         raise SubmissionError(_nothing(entries, modules, remarks))
     return sources
-
-
-def modules_defined(source: bytes, modules: Iterable[str]) -> list[str]:
-    """Modules of which a file or notebook defines half of the functions, or else the one of which it defines most.
-
-    Empty if there is none, or two of which it defines as many.
-    """
-    defined = {name.decode() for name in _DEFINED.findall(source)}
-    count = {module: len(defined & {*COURSE[module]}) for module in modules}
-    halves = [module for module, number in count.items() if 2 * number >= len(COURSE[module])]
-    most = max(count.values(), default=0)
-    found = [module for module, number in count.items() if number == most > 0]
-    return halves or (found if len(found) == 1 else [])
 
 
 def _taken(module: str, candidates: list[tuple[Entry, NamedFile]], remarks: list[str]) -> bytes:
@@ -131,7 +119,7 @@ def _taken_by_content(
             try:
                 for module, source in _defined(entry, wanted, written):
                     by_module.setdefault(module, []).append((entry, source))
-            except SubmissionError as error:
+            except (SubmissionError, NotebookError) as error:
                 remarks.append(str(error))
         for module, found in by_module.items():
             if len(found) > 1:

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from course.base.atomic import replacing
 from course.engine.functions.effects import PROJECT
+from course.engine.functions.notebook.reachable import parsed, reachable
 from course.school.grading.classes.engines import apart
-from course.school.grading.classes.reachable import parsed, reachable
 from course.school.grading.classes.submitted import Submission
 from course.school.grading.release.stubs import make_stub
 

@@ -12,7 +12,8 @@ from pathlib import Path, PurePosixPath
 from course.base.errors import CourseError
 from course.base.texts import clean_line
 from course.engine.functions.modules import COURSE
-from course.school.grading.classes.choosing import choose, content_of, is_notebook, modules_defined
+from course.engine.functions.notebook.reading import modules_defined
+from course.school.grading.classes.choosing import choose, content_of, is_notebook
 from course.school.grading.classes.engines import LARGEST_SPACE, apart
 from course.school.grading.classes.entries import (
     LARGEST_ARCHIVE,

@@ -30,7 +30,7 @@ SCENES = {
         *(".ply", ".obj", ".stl", ".glb"),
     }
 }
-PAGES = {"docs": {".md", ".json"}}
+PAGES = {"docs": {".md", ".json", ".ipynb"}}
 """Reports tell students to read some of them, and these name the others."""
 
 FOLDERS = {

@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import TypeGuard
 
 from course.base.errors import CourseError
+from course.engine.functions.notebook.reachable import first_line
 
 BEGIN = "### BEGIN SOLUTION"
 END = "### END SOLUTION"
@@ -174,12 +175,6 @@ def _parse(text: str, file: str) -> ast.Module:
     except (SyntaxError, ValueError) as error:
         line = getattr(error, "lineno", None) or 1
         raise SolutionError(f"{file}:{line}: not Python: {error}") from error
-
-
-def first_line(node: ast.stmt) -> int:
-    """Number of the line where a statement begins, with its decorators."""
-    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
-    return min([node.lineno, *(decorator.lineno for decorator in decorators)])
 
 
 def _check_cuts(tree: ast.Module, regions: list[Region], file: str) -> None:

@@ -21,7 +21,6 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Picture, Scene, render
-from course.cli.tables import receipt_sections
 from course.engine.formats.pictures.display import Display
 from course.engine.formats.pictures.files import save
 from course.engine.loops.library import available
@@ -33,6 +32,7 @@ from course.engine.render.adaptive.pixel_groups import PixelGroup
 from course.engine.render.adaptive.prior import Prior
 from course.engine.render.adaptive.seen_ahead import CameraAxes
 from course.engine.render.job import Job
+from course.engine.render.sections import receipt_sections
 from course.engine.scene.building.cameras import compile_camera
 
 MakeScene = Callable[..., Scene]

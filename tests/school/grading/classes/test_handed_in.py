@@ -9,13 +9,12 @@ from pathlib import Path, PurePosixPath
 
 import pytest
 
+from course.engine.functions.notebook.reading import NotebookError, read_notebook
 from course.school.grading.classes import entries
 from course.school.grading.classes.entries import Entry, unfolded
 from course.school.grading.classes.names import read_name
-from course.school.grading.classes.notebooks import read_notebook
 from course.school.grading.classes.submitted import Submission, find_submissions
 from course.school.grading.classes.systems import sent
-from course.school.grading.submissions import SubmissionError
 
 LENS = b"import numpy as np\n\ndef point_on_disk(u):\n    return np.sqrt(u)\n"
 BLUR = b"def displacement(velocity, time):\n    return velocity[:, None] * time\n"
@@ -355,7 +354,7 @@ def test_a_notebook_or_a_text_of_any_name_is_known_by_its_functions(tmp_path: Pa
     ],
 )
 def test_notebooks_that_are_none(content: bytes, why: str) -> None:
-    with pytest.raises(SubmissionError, match=why):
+    with pytest.raises(NotebookError, match=why):
         read_notebook("work.ipynb", content, ["thin_lens"])
 
 

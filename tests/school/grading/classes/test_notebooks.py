@@ -15,17 +15,16 @@ from traitlets.config import Config
 
 from benchmarks.mutants.cells import in_cells
 from course.engine.functions.modules import COURSE
+from course.engine.functions.notebook.reading import Notebook, NotebookError, read_notebook
+from course.engine.functions.notebook.reading import converted as converted_notebook
 from course.school.grading.classes.job import GradingJob, grade_job
 from course.school.grading.classes.keeping import fingerprint
-from course.school.grading.classes.notebooks import Notebook, read_notebook
-from course.school.grading.classes.notebooks import converted as converted_notebook
 from course.school.grading.classes.settings import GradingSettings
 from course.school.grading.classes.submitted import find_submissions
 from course.school.grading.grading import grade
 from course.school.grading.known import known
 from course.school.grading.references import references
 from course.school.grading.reports.classes import ClassLine, write_class_page, write_grades
-from course.school.grading.submissions import SubmissionError
 
 BLUR = "def displacement(velocity, time):\n    return np.asarray(velocity)[:, None] * time * {factor}\n"
 VELOCITY, TIME = np.array([1.0, 2.0, -3.0]), np.array([0.0, 0.5])
@@ -299,7 +298,7 @@ def test_an_older_format_and_other_languages() -> None:
     assert isinstance(found, Notebook)
     assert moved(found.sources["motion_blur"]).shape == (3, 2)
     content = notebook("x <- 1", metadata={"kernelspec": {"language": "R"}})
-    with pytest.raises(SubmissionError, match="its language is R"):
+    with pytest.raises(NotebookError, match="its language is R"):
         read_notebook("a.ipynb", content, ["motion_blur"])
 
 

@@ -1,12 +1,18 @@
-"""A progress bar on stderr, where stderr is a terminal; elsewhere nothing is shown or imported."""
+"""A progress bar: on stderr where that is a terminal, below the cell in a notebook; else nothing is shown or imported.
+
+In a notebook it is one output that changes and is empty in the end. A widget would be saved as a blank, and lines that
+overwrite each other would be saved one below the other.
+"""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 from threading import Lock, Timer
-from typing import TYPE_CHECKING
+from time import monotonic
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
@@ -14,8 +20,77 @@ if TYPE_CHECKING:
 SHOWN_AFTER = 0.2
 """Seconds before a bar appears: rich takes 30 ms to import, and a flash tells nobody anything."""
 
+LONG = 1.0
+"""Seconds before one appears in a notebook, where it is a part of what is kept."""
+
+REDRAWN = 0.2
+"""Seconds between two changes of it."""
+
 Report = Callable[[float, bool], None]
 """Called with the share done, 0 to 1, and whether there is a picture so far."""
+
+
+_QUIET: ContextVar[bool] = ContextVar("quiet", default=False)
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Show no bar but where one is asked for."""
+    before = _QUIET.set(True)
+    try:
+        yield
+    finally:
+        _QUIET.reset(before)
+
+
+def reported(progress: Report | bool | None, label: str) -> AbstractContextManager[Report | None]:
+    """What is to be called with the share done.
+
+    ``progress``: that itself, or whether to show a bar; None shows one in a notebook alone
+    """
+    shell = _notebook()
+    if callable(progress):
+        return nullcontext(progress)
+    if progress is False or (progress is None and (shell is None or _QUIET.get())):
+        return nullcontext(None)
+    return progress_bar(label) if shell is None else _in_notebook(label)
+
+
+def _notebook() -> Any:
+    """The shell of a notebook that is run in this process; None where there is none."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    return shell if hasattr(shell, "kernel") else None
+
+
+@contextmanager
+def _in_notebook(label: str) -> Iterator[Report]:
+    from IPython.display import display
+
+    began = last = monotonic()
+    shown: Any = None
+
+    def report(done: float, _available: bool) -> None:
+        nonlocal shown, last
+        now = monotonic()
+        if now - began < LONG or now - last < REDRAWN:
+            return
+        last = now
+        gone = f"{now - began:.0f} s gone"
+        left = f", about {(now - began) * (1 / done - 1):.0f} s left" if done else ""
+        text = f"{label}: {done:.0%}, {gone}{left}"
+        bar = f'<progress value="{done:.3f}" max="1"></progress> {text}'
+        bundle = {"text/html": bar, "text/plain": text}
+        if shown is None:
+            shown = display(bundle, raw=True, display_id=True)  # type: ignore[no-untyped-call]
+        else:
+            shown.update(bundle, raw=True)
+
+    try:
+        yield report
+    finally:
+        if shown is not None:
+            shown.update({"text/html": "", "text/plain": ""}, raw=True)
 
 
 @contextmanager

@@ -13,8 +13,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeGuard
 
-from course.school.grading.classes.cells import Statement
-from course.school.grading.classes.effects import (
+from course.engine.functions.notebook.cells import Statement
+from course.engine.functions.notebook.name_effects import (
     DISPLAY,
     NameEffects,
     arguments,
@@ -28,6 +28,9 @@ from course.school.grading.classes.effects import (
     is_pure,
     scopes,
 )
+
+Place = tuple[int, int]
+"""A cell, and a line in it."""
 
 
 @dataclass
@@ -91,21 +94,28 @@ class Code:
         )
         self.needed, self.may = set[str](), set[str]()
 
-    def module(self, functions: Iterable[str]) -> tuple[str, list[Statement]]:
-        """The text of what some functions need, and the statements that do something and were left out.
+    def module(self, functions: Iterable[str]) -> tuple[str, list[Place], list[Statement]]:
+        """The text of what some functions need, where its lines stand, and statements that do something and are left.
 
         The text is empty where none of the functions is defined.
         """
         self.needed, self.may = {*functions} & self.bound, set()
         if not self.needed:
-            return "", []
+            return "", [], []
         for use in self.uses:
             use.kept = ""
         self._choose()
-        future = [use.statement.text for use in self.uses if _is_future(use)]
-        kept = [_text(use) for use in self.uses if use.kept and not _is_future(use)]
+        future = {use.statement.text: use for use in self.uses if _is_future(use)}
+        kept = [use for use in self.uses if use.kept and not _is_future(use)]
         left = [use.statement for use in self.uses if not use.kept and self._does_something(use)]
-        return "\n\n".join([*dict.fromkeys(future), *kept]), left
+        texts, places = (
+            [*future],
+            [place for text, use in future.items() for place in _places(use, text)],
+        )
+        for use in kept:
+            texts.append(_text(use))
+            places += _places(use, texts[-1])
+        return "\n\n".join(texts), places, left
 
     def _choose(self) -> None:
         """Mark what is kept."""
@@ -184,10 +194,15 @@ class Code:
     def _is_display(self, name: str) -> bool:
         return self.packages.get(name, "").partition(".")[0] in DISPLAY
 
+    def _is_courses(self, name: str) -> bool:
+        return self.packages.get(name, "").partition(".")[0] == "course"
+
     def _does_something(self, use: _Use) -> bool:
         """Whether a statement defines or changes anything: what is imported only has another name."""
         imports = isinstance(use.statement.node, ast.Import | ast.ImportFrom)
-        return not imports and bool(use.binds or use.now.changes - self.functions)
+        # What the course has made of functions is a picture to look at.
+        made = {name for name in use.binds if self._is_courses(name)}
+        return not imports and bool(use.binds - made or use.now.changes - self.functions)
 
 
 def _fixed_by(node: ast.stmt, fixed: set[str], packages: dict[str, str]) -> set[str]:
@@ -248,7 +263,7 @@ def _shown_not(statement: Statement, packages: dict[str, str]) -> Statement:
     if ast.dump(node) == before:
         return statement
     text = ast.unparse(ast.fix_missing_locations(node))
-    return replace(statement, node=node, text=text)
+    return replace(statement, node=node, text=text, whole=False)
 
 
 class _Shown(ast.NodeTransformer):
@@ -315,6 +330,13 @@ def _star(node: ast.stmt) -> str:
 def _is_future(use: _Use) -> bool:
     node = use.statement.node
     return isinstance(node, ast.ImportFrom) and node.module == "__future__"
+
+
+def _places(use: _Use, text: str) -> list[Place]:
+    """Where the lines of what is kept stand, and the blank one after it."""
+    one = use.statement
+    own = one.whole and text == one.text
+    return [(one.cell, one.line + own * n) for n in range(text.count("\n") + 2)]
 
 
 def _text(use: _Use) -> str:

@@ -6,7 +6,7 @@ from time import sleep
 
 import pytest
 
-from course.cli import progress
+from course.base import progress
 
 
 def test_nothing_is_shown_where_there_is_no_terminal(capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,16 +6,30 @@ is run here, its text is taken apart: but that can be made to take long, so it i
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from course.base.errors import CourseError
 from course.engine.functions.modules import COURSE
-from course.school.grading.submissions import LARGEST_FILE, SubmissionError
 
 if TYPE_CHECKING:
-    from course.school.grading.classes.cells import Statement
+    from course.engine.functions.notebook.cells import Statement
+    from course.engine.functions.notebook.needed import Place
+
+LARGEST_FILE = 2_000_000
+"""Bytes of a file of functions that are read."""
+
+UNNEEDED = "left out, for no function needs it"
+"""How what is told of statements begins that try something out."""
+
+LARGEST_NOTEBOOK = 20_000_000
+"""Bytes; pictures are part of a notebook."""
+
+_DEFINED = re.compile(rb'(?:^|"|\\n)[ \t]*(?:async\s+)?def\s+(\w+)', re.MULTILINE)
+"""In a program at the beginning of a line, in a notebook at that of a string or after an escaped end of line."""
 
 MOST_TOLD = 8
 """Places that are told of one notebook."""
@@ -30,29 +44,35 @@ class Notebook:
     sources : module -> its text, made from the cells
     files : module -> its text, as a cell writes it into a file of the module's name
     told : what was left out of the cells
+    places : module -> where each line of its text stands: cell, and line in it
     """
 
     sources: dict[str, bytes] = field(default_factory=dict)
     files: dict[str, bytes] = field(default_factory=dict)
     told: tuple[str, ...] = ()
+    places: dict[str, list[Place]] = field(default_factory=dict)
+
+
+class NotebookError(CourseError):
+    """A file that is no notebook; the message names it and says why."""
 
 
 def read_notebook(name: str, content: bytes, modules: Iterable[str]) -> Notebook:
-    """Read some modules from a notebook, in this process; ``SubmissionError`` where it is none.
+    """Read some modules from a notebook, in this process; ``NotebookError`` where it is none.
 
     ``name``: of the file, for messages
     """
     found = converted((content, tuple(modules)))
     if isinstance(found, str):
-        raise SubmissionError(f"{name}: is no notebook that can be read: {found}")
+        raise NotebookError(f"{name}: is no notebook that can be read: {found}")
     return found
 
 
 def converted(work: tuple[bytes, tuple[str, ...]]) -> Notebook | str:
     """The notebook, or why it is none."""
     # IPython takes a fifth of a second to import.
-    from course.school.grading.classes.cells import NO_NOTEBOOK, read_cells
-    from course.school.grading.classes.needed import Code
+    from course.engine.functions.notebook.cells import NO_NOTEBOOK, read_cells
+    from course.engine.functions.notebook.needed import Code
 
     content, modules = work
     try:
@@ -68,16 +88,30 @@ def converted(work: tuple[bytes, tuple[str, ...]]) -> Notebook | str:
     told = [*cells.told, *(f"{file}, which a cell writes, is left out" for file in others)]
     code = Code(cells.statements, told)
     sources: dict[str, bytes] = {}
+    places: dict[str, list[Place]] = {}
     left: list[Statement] = []
     for module in modules:
-        text, beside = code.module(COURSE[module])
+        text, places[module], beside = code.module(COURSE[module])
         if text:
             sources[module] = text.encode("utf-8", "replace")[:LARGEST_FILE] + b"\n"
             left = beside if len(sources) == 1 else [one for one in left if one in beside]
     if sources:
         told += _places(left)
     more = [f"{len(told) - MOST_TOLD} places more"] if len(told) > MOST_TOLD else []
-    return Notebook(sources, files, (*told[:MOST_TOLD], *more))
+    return Notebook(sources, files, (*told[:MOST_TOLD], *more), places)
+
+
+def modules_defined(source: bytes, modules: Iterable[str]) -> list[str]:
+    """Modules of which a file or notebook defines half of the functions, or else the one of which it defines most.
+
+    Empty if there is none, or two of which it defines as many.
+    """
+    defined = {name.decode() for name in _DEFINED.findall(source)}
+    count = {module: len(defined & {*COURSE[module]}) for module in modules}
+    halves = [module for module, number in count.items() if 2 * number >= len(COURSE[module])]
+    most = max(count.values(), default=0)
+    found = [module for module, number in count.items() if number == most > 0]
+    return halves or (found if len(found) == 1 else [])
 
 
 def _places(left: list[Statement]) -> list[str]:
@@ -90,4 +124,4 @@ def _places(left: list[Statement]) -> list[str]:
         places.append(f"cell {cell}, line{'' if len(lines) == 1 else 's'} {listed}")
     if len(places) > MOST_TOLD:
         places[MOST_TOLD:] = [f"and {len(places) - MOST_TOLD} cells more"]
-    return [f"left out, for no function needs it: {'; '.join(places)}"] if places else []
+    return [f"{UNNEEDED}: {'; '.join(places)}"] if places else []

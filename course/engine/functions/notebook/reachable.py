@@ -17,6 +17,12 @@ def parsed(text: str | bytes) -> ast.Module | None:
         return None
 
 
+def first_line(node: ast.stmt) -> int:
+    """Number of the line where a statement begins, with its decorators."""
+    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
+    return min([node.lineno, *(decorator.lineno for decorator in decorators)])
+
+
 def reachable(module: str, tree: ast.Module, imports: bool = False) -> Iterator[ast.stmt]:
     """Statements that the module's functions come to use; of definitions with one name the last.
 

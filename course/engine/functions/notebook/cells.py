@@ -18,14 +18,16 @@ from typing import Any
 from IPython.core.inputtransformer2 import TransformerManager
 
 from course.base.texts import words
-from course.school.grading.classes.reachable import parsed
-from course.school.grading.release.stubs import first_line
+from course.engine.functions.notebook.reachable import first_line, parsed
 
 RUNS = ("time", "capture", "prun", "debug")
 """Magics that run their text as a part of the notebook."""
 
+CHECKS = "check"
+"""The course's own, which does so over a cell."""
+
 SHOWS = words(
-    "alias_magic autoawait automagic autoreload bookmark colors conda config dirs doctest_mode "
+    "alias_magic autoawait automagic autoreload bookmark check colors course conda config dirs doctest_mode "
     "help hist history html HTML javascript js latex load_ext logoff logon logstart logstate "
     "logstop lprun ls lsmagic magic mamba markdown matplotlib memit micromamba mprun notebook page "
     "pastebin pdb pdef pdoc pfile pinfo pinfo2 pip precision profile psearch psource pwd "
@@ -59,12 +61,14 @@ class Statement:
     node : its tree, without what only a notebook can run
     text : as the student wrote it, or made from the tree where that is another
     cell, line : where it stands
+    whole : whether it is as the student wrote it, line by line
     """
 
     node: ast.stmt
     text: str
     cell: int
     line: int
+    whole: bool = True
 
 
 @dataclass
@@ -144,7 +148,7 @@ def _statements(node: ast.stmt, lines: "_Lines", code: list[str], line: int) -> 
     if kept == [node] and ast.dump(node) == original:
         return [Statement(node, _segment(code, node), lines.cell, line)]
     return [
-        Statement(one, _unparsed(one), lines.cell, line)
+        Statement(one, _unparsed(one), lines.cell, line, whole=False)
         for one in kept
         if not isinstance(one, ast.Pass)
     ]
@@ -153,7 +157,7 @@ def _statements(node: ast.stmt, lines: "_Lines", code: list[str], line: int) -> 
 def _read_magic(
     name: str, options: str, body: str, cell: int, above: int, found: NotebookCode, depth: int
 ) -> None:
-    if name in RUNS and depth < _DEEPEST:
+    if name in (*RUNS, CHECKS) and depth < _DEEPEST:
         _read(body, cell, above + 1, found, depth + 1)
     elif name in WRITES and (file := _written(options)):
         path, appended = file

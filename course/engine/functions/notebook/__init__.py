@@ -1,0 +1,1 @@
+"""Notebooks: the modules that their cells hold."""

@@ -1,0 +1,47 @@
+"""The end of threads in which a student's function never returns, after Ctrl-C."""
+
+import ctypes
+import sys
+import warnings
+from collections.abc import Sequence
+from threading import Thread
+from time import monotonic
+
+from course.base.errors import CourseWarning
+from course.engine.functions.guard import asked_in
+
+PATIENCE = 1.0
+"""Seconds in which what is at work ends by itself: a tile asks after each batch of rays."""
+
+AGAIN = 0.2
+"""Seconds after which a thread is interrupted once more: a function may catch it."""
+
+MOST = 10.0
+"""Seconds until a thread is left to itself, as one that waits in a library written in C."""
+
+
+def end_endless(threads: Sequence[Thread]) -> None:
+    """Wait for threads to end; those whose function goes on are interrupted in it, which is told by its name."""
+    _await(threads, PATIENCE)
+    frames = sys._current_frames()
+    asked = [asked_in(frames.get(thread.ident or 0)) for thread in threads if thread.is_alive()]
+    for said in dict.fromkeys(filter(None, asked)):
+        warnings.warn(f"{said} was still at work, and was ended", CourseWarning, stacklevel=3)
+    # Where a function has none of its own to interrupt, the batch of rays is long, and ends.
+    began = monotonic()
+    while any(asked) and _await(threads, 0) and monotonic() - began < MOST:
+        for thread in threads:
+            if thread.is_alive() and thread.ident is not None:
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                    ctypes.c_ulong(thread.ident), ctypes.py_object(KeyboardInterrupt)
+                )
+        _await(threads, AGAIN)
+
+
+def _await(threads: Sequence[Thread], seconds: float) -> bool:
+    """Whether one of them is still at work after so long."""
+    end = monotonic() + seconds
+    for thread in threads:
+        if thread.ident is not None:
+            thread.join(max(end - monotonic(), 0))
+    return any(thread.is_alive() for thread in threads)

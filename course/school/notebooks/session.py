@@ -1,0 +1,152 @@
+"""What a running notebook holds: the cells that were run, and the functions of the course that they define."""
+
+import ast
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from inspect import getsource
+from types import FunctionType
+from typing import Any
+
+from course.engine.functions.effects import written_in
+from course.engine.functions.modules import COURSE
+from course.engine.functions.notebook.name_effects import is_builtin, scopes
+from course.engine.functions.notebook.needed import Place
+from course.engine.functions.notebook.reading import Notebook, converted
+
+MODULE_OF = {name: module for module, names in COURSE.items() for name in names}
+"""Of each function; no two have one name."""
+
+
+@dataclass(frozen=True)
+class RunCell:
+    """A cell as it was run last.
+
+    Attributes
+    ----------
+    number : that the notebook shows, as in In[5]
+    key : which cell it is; None where the notebook doesn't say
+    text : with its magics
+    """
+
+    number: int
+    key: str | None
+    text: str
+
+    @property
+    def functions(self) -> frozenset[str]:
+        """The functions of the course that it defines."""
+        return functions_in(self.text)
+
+
+@dataclass(frozen=True)
+class SessionModule:
+    """What the cells that were run make of a module.
+
+    Attributes
+    ----------
+    text : as a program; empty where none of its functions is defined
+    places : number of the cell, and line in it, for each line of the text
+    lacking : names that it uses and no cell defines
+    """
+
+    text: bytes
+    places: tuple[Place, ...]
+    lacking: tuple[str, ...]
+
+    def place(self, line: int) -> str:
+        """A line of the text, as a message has it."""
+        if not self.places:
+            return f"line {line}"
+        number, own = self.places[min(line, len(self.places)) - 1]
+        return f"cell In[{number}], line {own}"
+
+
+class Session:
+    """The cells that a shell has run, in that order; of one that was run again the last time counts.
+
+    ``shell``: of IPython, which tells of each cell
+    """
+
+    def __init__(self, shell: Any) -> None:
+        # Cells before the extension was loaded, with the one that loads it.
+        texts = shell.history_manager.input_hist_raw[1:]
+        self.cells = [RunCell(number, None, text) for number, text in enumerate(texts, 1)]
+        self._shell = shell
+        shell.events.register("pre_run_cell", self._begun)
+
+    def close(self) -> None:
+        """Listen no longer."""
+        self._shell.events.unregister("pre_run_cell", self._begun)
+
+    def _begun(self, info: Any) -> None:
+        if not info.store_history or info.silent:
+            return
+        key = getattr(info, "cell_id", None)
+        cell = RunCell(self._shell.execution_count, key, info.raw_cell)
+        own = cell.functions
+        # Without a key, a cell is the same as one before if it defines all that the other did.
+        self.cells = [
+            one
+            for one in self.cells
+            if not (one.key == key if key and one.key else one.functions and one.functions <= own)
+        ]
+        self.cells.append(cell)
+
+    def module(self, module: str) -> SessionModule:
+        """What the cells make of a module, as it would be graded if the notebook had them in this order."""
+        cells = [{"cell_type": "code", "source": cell.text} for cell in self.cells]
+        made = converted((json.dumps({"cells": cells}).encode(), (module,)))
+        if not isinstance(made, Notebook) or module not in made.sources:
+            return SessionModule(b"", (), ())
+        text = made.sources[module]
+        places = tuple((self.cells[cell - 1].number, line) for cell, line in made.places[module])
+        binds, reads, _ = scopes(text.decode())
+        lacking = sorted(n for n in reads - binds if not is_builtin(n) and not n.startswith("__"))
+        return SessionModule(text, places, tuple(lacking))
+
+
+def functions_in(text: str) -> frozenset[str]:
+    """Functions of the course that a cell defines."""
+    cells = [{"cell_type": "code", "source": text}]
+    # Imported late, with IPython.
+    from course.engine.functions.notebook.cells import read_cells
+
+    found = read_cells(json.dumps({"cells": cells}).encode()).statements
+    names = {one.node.name for one in found if isinstance(one.node, ast.FunctionDef)}
+    return frozenset(names & MODULE_OF.keys())
+
+
+class Mine(Mapping[str, Callable[..., Any]]):
+    """The functions of the course that a notebook has defined and written, as they are now; for ``load_scene``.
+
+    ``names``: of the notebook
+    """
+
+    def __init__(self, names: Mapping[str, Any]) -> None:
+        self._names = names
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name in MODULE_OF if self._written(name))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __getitem__(self, name: str) -> Callable[..., Any]:
+        if not self._written(name):
+            raise KeyError(name)
+        function: Callable[..., Any] = self._names[name]
+        return function
+
+    def _written(self, name: str) -> bool:
+        found = self._names.get(name) if name in MODULE_OF else None
+        if not isinstance(found, FunctionType):
+            return callable(found)
+        try:
+            return name in written_in(getsource(found), MODULE_OF[name])
+        except (OSError, TypeError):
+            # Not of a cell, so it is no stub.
+            return True
+
+    def __repr__(self) -> str:
+        return f"<functions of this notebook: {', '.join(self) or 'none is written'}>"
