@@ -49,6 +49,9 @@ DEEPEST = 64
 MOST_DRAWN = 96
 """Dimensions up to which numbers of a sampler are drawn before the paths are followed: those of all bounces."""
 
+MOST_PLACED = 6
+"""Points on lights, of all depths, that are placed for each sample before it is followed, be they needed or not."""
+
 POINTS_ON_SPHERES = {
     "sphere": "point_on_sphere",
     "ball": "point_in_ball",
@@ -138,7 +141,6 @@ KNOWN: dict[type, Known] = {
     RectangleLight: Known(
         "",
         f"{_LIGHT} corner edge_u edge_v normal soft_shadows two_sided visible",
-        also=lambda r: _owned(r.soft_shadows, "point_on_rectangle"),
     ),
     SphereLight: Known(
         "",
@@ -146,7 +148,7 @@ KNOWN: dict[type, Known] = {
         also=lambda s: (
             s.samples in POINTS_ON_SPHERES
             and (s.samples == "sphere" or not s.emitter)
-            and _owned(s.soft_shadows, POINTS_ON_SPHERES[s.samples])
+            and (s.samples != "facing disk" or _owned(s.soft_shadows, POINTS_ON_SPHERES[s.samples]))
         ),
     ),
     MeshLight: Known("", f"{_LIGHT} shares planes edges limit"),
@@ -166,9 +168,30 @@ KNOWN: dict[type, Known] = {
 
 def fits(tracer: Tracer) -> bool:
     """True if the fused loop knows all that a scene uses, and the functions that it has forms of are the course's."""
-    return _knows(tracer.integrator) and (
-        type(tracer.sampler) is SobolSampler or _fits_drawn(tracer)
+    integrator = tracer.integrator
+    placed = len(placed_before(integrator)) * depths_of_lights(integrator)
+    return (
+        _knows(integrator)
+        and placed <= MOST_PLACED
+        and (type(tracer.sampler) is SobolSampler or _fits_drawn(tracer))
     )
+
+
+def placed_before(integrator: Integrator) -> tuple[RectangleLight | SphereLight, ...]:
+    """The lights whose points are placed before paths are followed, by functions that are a student's."""
+    lights = () if integrator.direct is None else integrator.direct.lights
+    return tuple(
+        light
+        for light in lights
+        if isinstance(light, RectangleLight | SphereLight)
+        and not _owned(light.soft_shadows, *vars(light.soft_shadows))
+    )
+
+
+def depths_of_lights(integrator: Integrator) -> int:
+    """Number of depths at which paths may be lit."""
+    goes_on = integrator.scatter is not None or isinstance(integrator, PathIntegrator)
+    return 1 + integrator.max_depth * goes_on
 
 
 def makes_camera_rays(tracer: Tracer) -> bool:

@@ -36,7 +36,7 @@ from course.engine.loops import (
     path_kernels,
     shaft_kernels,
 )
-from course.engine.loops.fits import makes_camera_rays
+from course.engine.loops.fits import depths_of_lights, makes_camera_rays, placed_before
 from course.engine.loops.packets import WIDTH, aligned
 from course.engine.loops.scene_tables import SceneTables, scene_tables
 from course.engine.terms.cameras.near_plane import NearPlaneCamera
@@ -126,7 +126,10 @@ def _emitting(light: PointLight | RectangleLight) -> tuple[int, Floats | None]:
     return (0, None) if light.normal is None else (1 + light.two_sided, light.normal)
 
 
-def _lights(lights: tuple[Light, ...], dimensions: Dimensions) -> lamp_kernels.Lights:
+def _lights(integrator: Integrator, dimensions: Dimensions) -> lamp_kernels.Lights:
+    lights = () if integrator.direct is None else integrator.direct.lights
+    rows = 3 * depths_of_lights(integrator)
+    placed = {light.name: rows * k for k, light in enumerate(placed_before(integrator))}
     lamps = [_lamp(light) for light in lights]
     n = len(lamps)
     radius = np.array([lamp.radius for lamp in lamps])
@@ -151,6 +154,7 @@ def _lights(lights: tuple[Light, ...], dimensions: Dimensions) -> lamp_kernels.L
             np.int64,
         ),
         width=np.array([light.width for light in lights], np.int64),
+        placed=np.array([placed.get(light.name, -1) for light in lights], np.int64),
         meshes=_meshes(lights),
     )
 
@@ -363,6 +367,24 @@ def _eye(integrator: Integrator, dimensions: Dimensions) -> number_kernels.Eye:
     )
 
 
+def _placed(integrator: Integrator, draws: Draws) -> Floats32:
+    """``Numbers.placed`` of a block."""
+    before, depths = placed_before(integrator), depths_of_lights(integrator)
+    if not before:
+        return _NO_NUMBERS
+    placed = np.empty((len(before), depths, 3, draws.block.size), np.float32)
+    for rows, light in zip(placed, before, strict=True):
+        for depth in range(depths):
+            u = draws(light.name, None, depth)
+            if isinstance(light, RectangleLight):
+                corner, *edges = light.corner, light.edge_u, light.edge_v
+                rows[depth] = light.soft_shadows.point_on_rectangle(corner, *edges, u)
+            else:
+                center = _NOWHERE if light.emitter else light.center
+                rows[depth] = light.on_light(center, _NO_COLUMNS, u)
+    return placed.reshape(-1, draws.block.size)
+
+
 @dataclass(frozen=True)
 class FusedTracer(Tracer):
     """Renders tiles by the fused loop."""
@@ -371,7 +393,6 @@ class FusedTracer(Tracer):
     def _tables(self) -> tuple[Any, ...]:
         """What the loop is handed of the scene."""
         integrator, dimensions = self.integrator, self.dimensions
-        lights = () if integrator.direct is None else integrator.direct.lights
         stride = dimensions.first("pixel", 1) // 2
         surface = integrator.surface
         tables = scene_tables(surface.accelerator, surface.triangles.parts)
@@ -380,7 +401,7 @@ class FusedTracer(Tracer):
             _scene(integrator, tables),
             _shafts(integrator),
             _reflectances(integrator),
-            _lights(lights, dimensions),
+            _lights(integrator, dimensions),
             _sky(integrator.direct, dimensions),
             _scattering(integrator, dimensions, tables, self._pairs * self._draws_before),
             _paths(integrator, dimensions),
@@ -482,8 +503,9 @@ class FusedTracer(Tracer):
             seen[7:] = offsets.reshape(2, -1)
         pixels = np.ascontiguousarray(block.pixels)
         points, first, salts = tables
+        placed = _placed(integrator, draws)
         return number_kernels.Numbers(
-            pixels, x, y, block.samples, points, first, salts, drawn, seen
+            pixels, x, y, block.samples, points, first, salts, drawn, seen, placed
         )
 
     @property

@@ -18,7 +18,7 @@ from course.engine.loops.bounce_kernels import RAY, scatter
 from course.engine.loops.clock_kernels import nanoseconds
 from course.engine.loops.cube_kernels import look_up
 from course.engine.loops.daylight_kernels import shine
-from course.engine.loops.lamp_kernels import TIMED, illuminate
+from course.engine.loops.lamp_kernels import TIMED, choose, illuminate
 from course.engine.loops.lanes import (
     ABOVE,
     ASKED,
@@ -531,20 +531,8 @@ def _shade(
     if len(shafts.slot):
         find_cells(shafts, s, whole)
     for k in range(len(lights.kind)):
-        pair = lights.pair[k] + depth * stride
-        shadows = illuminate(
-            lights,
-            k,
-            scene,
-            shafts,
-            materials,
-            numbers,
-            pair,
-            same,
-            timed,
-            scratch,
-            counts,
-        )
+        choose(lights, k, numbers, depth, stride, same, s, whole)
+        shadows = illuminate(lights, k, scene, shafts, materials, timed, scratch, counts)
         counts[SHADOW_RAYS] += shadows
         if len(film.cost) and shadows:
             _charge(film, film.prices[1], ASKED, count, whole)

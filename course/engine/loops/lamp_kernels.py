@@ -53,7 +53,7 @@ from course.engine.loops.lanes import (
     U,
 )
 from course.engine.loops.mesh_kernels import Meshes, towards_triangles
-from course.engine.loops.number_kernels import circle, draw
+from course.engine.loops.number_kernels import circle, draw, take
 from course.engine.loops.occlusion_kernels import occlude
 from course.engine.loops.options import LEAN, njit
 from course.engine.loops.packet_kernels import TFAR, TO, WIDTH
@@ -88,6 +88,7 @@ class Lights(NamedTuple):
     limit : (L,) float32 length of the shadow rays, in lengths of the vector to the light
     velocity : (L, 3) float32; of no meaning where ``moves`` (L,) is false
     pair, width : (L,) first pair of dimensions at depth 0, and the number of dimensions
+    placed : (L,) the first row in ``Numbers.placed`` at depth 0; -1 where the loop places points
     meshes : of those that are made of triangles
     """
 
@@ -102,6 +103,7 @@ class Lights(NamedTuple):
     moves: Mask
     pair: Indices
     width: Indices
+    placed: Indices
     meshes: Meshes
 
 
@@ -115,6 +117,15 @@ def _on_sphere(call, s, radius, twice):
         s[SHADOW_TO + i] = r * s[A + i]
         s[SHADOW_TO + _Y + i] = r * s[B + i]
         s[SHADOW_TO + _Z + i] = radius * (_ONE - _TWO * u)
+
+
+@njit(**LEAN)
+def _on_rectangle(lights, k, s):
+    """``point_on_rectangle``."""
+    for c in range(3):
+        corner, along, down = lights.place[k, 0, c], lights.place[k, 1, c], lights.place[k, 2, c]
+        for i in range(WIDTH):
+            s[SHADOW_TO + c * WIDTH + i] = along * s[U + i] + corner + down * s[U + WIDTH + i]
 
 
 @njit(**LEAN)
@@ -150,9 +161,21 @@ def _towards_visible(call, s, squared_radius, x0, y0, z0):
 
 
 @njit(**LEAN)
+def choose(lights, k, numbers, depth, stride, same, s, whole):
+    """What each path needs for a point on light k: numbers, or in ``SHADOW_TO`` the point, if it is placed before."""
+    if lights.placed[k] >= 0:
+        take(numbers.placed, lights.placed[k] + 3 * depth, 3, s, whole, SHADOW_TO)
+    elif lights.width[k]:
+        pair = lights.pair[k] + depth * stride
+        draw(numbers, pair, 2, same, s, whole, U)
+        if lights.width[k] > 2:
+            draw(numbers, pair + 1, 1, same, s, whole, U + 2 * WIDTH)
+
+
+@njit(**LEAN)
 def _sample(lights, k, call, s):
     """A point on light k for each hit: fill ``SHADOW_TO``, ``INVERSE`` and ``FACTOR`` as ``Light.sample`` does."""
-    kind, emitter = lights.kind[k], lights.emitter[k]
+    kind, emitter, placed = lights.kind[k], lights.emitter[k], lights.placed[k] >= 0
     x0, y0, z0 = lights.place[k, 0, 0], lights.place[k, 0, 1], lights.place[k, 0, 2]
     if kind == FAR_AWAY:
         for i in range(WIDTH):
@@ -170,18 +193,12 @@ def _sample(lights, k, call, s):
         for i in range(WIDTH):
             s[SHADOW_TO + i], s[SHADOW_TO + _Y + i], s[SHADOW_TO + _Z + i] = x0, y0, z0
     elif kind == RECTANGLE:
-        for c in range(3):
-            corner, along, down = (
-                lights.place[k, 0, c],
-                lights.place[k, 1, c],
-                lights.place[k, 2, c],
-            )
-            for i in range(WIDTH):
-                s[SHADOW_TO + c * WIDTH + i] = along * s[U + i] + corner + down * s[U + WIDTH + i]
+        if not placed:
+            _on_rectangle(lights, k, s)
     elif kind == FACING_DISK:
         _on_facing_disk(call, s, radius, x0, y0, z0)
     else:
-        if kind == BALL:
+        if kind == BALL and not placed:
             _on_sphere(call, s, _ONE, _TWO)
             third = U + 2 * WIDTH
             numpy_kernels.cbrt(call, s[third : third + WIDTH], s[C : C + WIDTH])
@@ -189,7 +206,7 @@ def _sample(lights, k, call, s):
                 far = radius * s[C + i]
                 for c in range(3):
                     s[SHADOW_TO + c * WIDTH + i] *= far
-        else:
+        elif not placed:
             _on_sphere(call, s, radius, twice)
         if emitter:
             for c in range(3):
@@ -197,10 +214,11 @@ def _sample(lights, k, call, s):
                     # Adding 0, as the function does to its points around the origin, makes a 0 of -0.
                     s[SHADOW_TO + c * WIDTH + i] += _NOTHING
                     s[D + c * WIDTH + i] = s[SHADOW_TO + c * WIDTH + i]
-        for i in range(WIDTH):
-            s[SHADOW_TO + i] += x0
-            s[SHADOW_TO + _Y + i] += y0
-            s[SHADOW_TO + _Z + i] += z0
+        if emitter or not placed:
+            for i in range(WIDTH):
+                s[SHADOW_TO + i] += x0
+                s[SHADOW_TO + _Y + i] += y0
+                s[SHADOW_TO + _Z + i] += z0
     for i in range(WIDTH):
         x = s[SHADOW_TO + i] - s[POINT + i]
         y = s[SHADOW_TO + _Y + i] - s[POINT + _Y + i]
@@ -349,16 +367,13 @@ def _block(lights, k, scene, sent, timed, scratch, counts):
 
 
 @njit(**LEAN)
-def illuminate(lights, k, scene, shafts, materials, numbers, pair, same, timed, scratch, counts):
+def illuminate(lights, k, scene, shafts, materials, timed, scratch, counts):
     """Add what hits reflect of light k, but for the reflectances, to ``DIFFUSE`` and ``SPECULAR``; how many may be lit.
 
-    ``ASKED`` are the hits that cast a shadow ray. Nanoseconds and second rays above facets are added to ``counts``.
+    ``choose`` comes first. ``ASKED`` are the hits that cast a shadow ray. Nanoseconds and second rays above facets are
+    added to ``counts``.
     """
     call, s, whole = scratch.call, scratch.s, scratch.whole
-    if lights.width[k]:
-        draw(numbers, pair, 2, same, s, whole, U)
-        if lights.width[k] > 2:
-            draw(numbers, pair + 1, 1, same, s, whole, U + 2 * WIDTH)
     for i in range(3 * WIDTH):
         s[SHADOW + i], s[POINT + i] = s[NEAR + i], s[P + i]
     if lights.moves[k]:

@@ -36,6 +36,8 @@ class Numbers(NamedTuple):
     drawn : (d, n * samples) float32, by dimension; (0, 0) for Sobol's
     seen : (9, n * samples) float32, camera rays that functions of others have made: origin, direction, time, and
         position in the pixel; (9, 0) where the loop makes them
+    placed : (r, n * samples) float32, points on lights that functions of others have placed, three rows for each such
+        light and depth; (0, 0) for none
     """
 
     pixels: Words
@@ -47,6 +49,7 @@ class Numbers(NamedTuple):
     salts: NDArray[np.uint64]
     drawn: Floats32
     seen: Floats32
+    placed: Floats32
 
 
 class Eye(NamedTuple):
@@ -160,7 +163,7 @@ def _follow(whole):
 
 
 @njit(**LEAN)
-def _take(columns, first, count, s, whole, row):
+def take(columns, first, count, s, whole, row):
     """Rows of some columns, of each path its own."""
     for k in range(count):
         for i in range(WIDTH):
@@ -171,7 +174,7 @@ def _take(columns, first, count, s, whole, row):
 def draw(numbers, pair, width, same, s, whole, row):
     """The numbers of a pair of dimensions into one row, or two; see ``SobolSampler``."""
     if len(numbers.drawn):
-        _take(numbers.drawn, 2 * pair, width, s, whole, row)
+        take(numbers.drawn, 2 * pair, width, s, whole, row)
         return
     salts, orders = numbers.salts, np.uint32(numbers.points.shape[1])
     line = 2 * pair if pair < 2 else 0
@@ -213,10 +216,10 @@ def circle(call, s, turns):
 def look(numbers, eye, same, call, s, whole):
     """The rays of ``course.engine.core.camera``, with the functions of ``thin_lens``, and the paths' times."""
     if numbers.seen.shape[1]:
-        _take(numbers.seen, 0, 3, s, whole, 0)
-        _take(numbers.seen, 3, 3, s, whole, TO)
-        _take(numbers.seen, 6, 1, s, whole, TIME)
-        _take(numbers.seen, 7, 2, s, whole, JITTER)
+        take(numbers.seen, 0, 3, s, whole, 0)
+        take(numbers.seen, 3, 3, s, whole, TO)
+        take(numbers.seen, 6, 1, s, whole, TIME)
+        take(numbers.seen, 7, 2, s, whole, JITTER)
         return
     frame = eye.frame
     draw(numbers, 0, 2, same, s, whole, JITTER)

@@ -2,6 +2,7 @@
 
 from dataclasses import fields, is_dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,18 @@ import pytest
 
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.loops import library
-from course.engine.loops.fits import KNOWN, fits, lists_all_fields, makes_camera_rays
+from course.engine.loops.fits import (
+    KNOWN,
+    fits,
+    lists_all_fields,
+    makes_camera_rays,
+    placed_before,
+)
 from course.engine.render.binding import bind
 from course.engine.render.render import render
 from course.engine.scene.scene import Scene, load_scene
 from course.engine.terms.samplers import FUNCTIONS
+from tests.conftest import MakeScene
 from tests.forms import needs_numba
 
 SCENES = PROJECT / "scenes"
@@ -115,9 +123,76 @@ def test_a_students_lens_shutter_and_pixel_functions_make_rays_for_the_loop(modu
     assert np.array_equal(loop.linear, render(scene, compiled=False, **options).linear)
 
 
+class Elsewhere(Effects):
+    """The solutions, but points on lights lie a little beside them: nothing that a loop of ours could make up."""
+
+    def function(self, module: str, name: str) -> Any:
+        """See ``Effects``."""
+        function = super().function(module, name)
+        if not name.startswith("point_"):
+            return function
+        return lambda *arguments: function(*arguments) + np.float32(0.05)
+
+
+LAMPS: dict[str, dict[str, Any]] = {
+    "sphere": {"type": "sphere", "radius": 0.4, "intensity": 9},
+    "ball": {"type": "sphere", "radius": 0.4, "intensity": 9, "samples": "ball"},
+    "emitter": {"type": "sphere", "radius": 0.4, "radiance": 9, "samples": "sphere"},
+    "moving": {"type": "sphere", "radius": 0.4, "intensity": 9, "motion": {"velocity": [1, 0, 0]}},
+}
+LAMPS = {name: lamp | {"center": [0.3, 2, 0.2]} for name, lamp in LAMPS.items()} | {
+    "rectangle": {"type": "rectangle", "corner": [-0.5, 2, 0], "radiance": 9}
+    | {"edge_u": [1, 0, 0], "edge_v": [0, 0, 1]},
+}
+
+
+@needs_numba
+@pytest.mark.parametrize("sampler", ["sobol", "jittered"])
+@pytest.mark.parametrize("lamp", LAMPS)
+def test_a_students_points_on_lights_are_placed_for_the_loop(
+    make_scene: MakeScene, tmp_path: Path, lamp: str, sampler: str
+) -> None:
+    """Two lamps, one behind the other in the arrays, over a floor that mirrors and a ball that throws a shadow."""
+    parts: dict[str, Any] = {
+        "camera": {"eye": [0, 1, 4], "look_at": [0, 0.5, 0], "shutter": {"open": 0, "close": 1}},
+        "materials": {"grey": {}, "floor": {"mirror": 0.3}},
+        "objects": [
+            {"shape": "quad", "material": "floor", "width": 9, "depth": 9},
+            {"shape": "sphere", "material": "grey", "radius": 0.5}
+            | {"transform": [{"translate": [0, 0.5, 0]}]},
+        ],
+        "lights": [LAMPS[lamp], LAMPS["sphere"] | {"center": [-1, 3, 1]}],
+        "integrator": {"max_depth": 2},
+    }
+    plain = make_scene(**parts)
+    scene = load_scene(tmp_path / "scene.yaml", Elsewhere("solutions"))
+    tracer = bound(scene, sampler=sampler, samples=16)
+    assert fits(tracer)
+    assert len(placed_before(tracer.integrator)) == 2
+    options: dict[str, Any] = {"spp": 16, "size": (30, 20), "sampler": sampler}
+    loop = render(scene, compiled=True, threads=1, **options)
+    batches = render(scene, compiled=False, threads=1, **options)
+    assert np.array_equal(loop.linear, batches.linear)
+    assert loop.receipt.rays == batches.receipt.rays
+    assert not np.array_equal(loop.linear, render(plain, **options).linear)
+
+
+def test_points_of_many_depths_are_not_placed_for_paths_that_end_before(
+    make_scene: MakeScene, tmp_path: Path
+) -> None:
+    for depth, few in ((5, True), (6, False)):
+        make_scene(
+            materials={"grey": {"mirror": 0.3}},
+            objects=[{"shape": "quad", "material": "grey", "width": 9, "depth": 9}],
+            lights=[LAMPS["sphere"]],
+            integrator={"max_depth": depth},
+        )
+        scene = load_scene(tmp_path / "scene.yaml", Elsewhere("solutions"))
+        assert fits(bound(scene, sampler="sobol")) == few
+
+
 def test_a_students_other_functions_are_called_by_batches() -> None:
     for name, function in (
-        ("soft_shadows", "soft_shadows.point_on_sphere"),
         ("motion_blur", "motion_blur.to_object_space"),
         ("glossy", "glossy.keep_above"),
     ):
