@@ -16,7 +16,7 @@ COURSE = ROOT / "course"
 CORE = COURSE / "engine" / "core"
 
 FILES = sorted(CORE.rglob("*.py"))
-MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 32, 1826, 60
+MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 32, 1829, 60
 """Lines are those that carry code. To raise this, say in the commit what a user gets for it."""
 
 FROM_RAY_TO_COLOUR = (

@@ -377,8 +377,7 @@ def _placed(integrator: Integrator, draws: Draws) -> Floats32:
         for depth in range(depths):
             u = draws(light.name, None, depth)
             if isinstance(light, RectangleLight):
-                corner, *edges = light.corner, light.edge_u, light.edge_v
-                rows[depth] = light.soft_shadows.point_on_rectangle(corner, *edges, u)
+                rows[depth] = light.on_light(u)
             else:
                 center = _NOWHERE if light.emitter else light.center
                 rows[depth] = light.on_light(center, _NO_COLUMNS, u)

@@ -25,5 +25,10 @@ class RectangleLight(FlatLight):
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         assert u is not None
-        on_light = self.soft_shadows.point_on_rectangle(self.corner, self.edge_u, self.edge_v, u)
-        return self.from_point(on_light, points, self.corner[:, None])
+        return self.from_point(self.on_light(u), points, self.corner[:, None])
+
+    def on_light(self, u: Floats32) -> Floats32:
+        """Points (3, n) on the light."""
+        edges = self.edge_u, self.edge_v
+        on_light: Floats32 = self.soft_shadows.point_on_rectangle(self.corner, *edges, u)
+        return on_light
