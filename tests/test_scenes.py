@@ -72,7 +72,7 @@ CALLS = {
     "film": "convert_gamut encode_srgb photographic quantize",
     "many_lights": "light_tree power_choice tree_choice",
     "path_tracing": "diffuse_bounce russian_roulette throughput",
-    "media": "free_flight free_flight_pdf henyey_greenstein sample_henyey_greenstein transmittance",
+    "media": "equiangular henyey_greenstein in_scattering transmittance",
 }
 
 
@@ -208,7 +208,7 @@ def test_the_twin_of_the_cube_map_has_its_mean_colour():
 def test_the_gallery_shows_every_effect(rendered):
     assert len(GALLERY) >= 7
     shown = set().union(*(modules(rendered(path).called) for path in GALLERY))
-    assert shown == {*MODULES, "textures", "film"}
+    assert shown == {*MODULES, "textures", "film", "media"}
 
 
 HOMAGE = SCENES / "gallery" / "1984.yaml"

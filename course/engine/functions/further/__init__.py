@@ -7,6 +7,8 @@ A file is called as its module. It has
 - ``CONTRACTS``: of those that the renderer calls, by their names, as ``course.engine.functions.signatures`` has them;
 - ``stand_ins()``: of these what stands in for them and what a picture then looks like, as ``stand_ins.py`` has them. A
   function, for command lines read names without NumPy.
+
+The last two may be left out where the renderer calls none of them.
 """
 
 from collections.abc import Callable
@@ -26,17 +28,21 @@ def with_further(listed: dict[str, tuple[str, ...]]) -> dict[str, tuple[str, ...
     order = list(listed)
     found = further()
     for name, module in found.items():
-        order.insert(order.index(module.AFTER) + 1, name)
+        # What is taught after a core module comes first of the others.
+        place = order.index(module.AFTER) + 1 if module.AFTER in order else 0
+        order.insert(place, name)
     return {name: listed.get(name) or tuple(found[name].FUNCTIONS.split()) for name in order}
 
 
 def further_contracts() -> dict[str, str]:
     """Contracts by "module.function"."""
     found = further().items()
-    return {f"{name}.{each}": text for name, m in found for each, text in m.CONTRACTS.items()}
+    said = [(name, getattr(module, "CONTRACTS", {})) for name, module in found]
+    return {f"{name}.{each}": text for name, texts in said for each, text in texts.items()}
 
 
 def further_stand_ins() -> dict[str, tuple[Callable[..., Any], str]]:
     """Stand-ins by "module.function"."""
     found = further().items()
-    return {f"{name}.{each}": stand for name, m in found for each, stand in m.stand_ins().items()}
+    said = [(name, module.stand_ins()) for name, module in found if hasattr(module, "stand_ins")]
+    return {f"{name}.{each}": stand for name, stands in said for each, stand in stands.items()}
