@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from course.engine.functions.effects import PROJECT
@@ -13,11 +14,18 @@ PAGES = {
     "index": "home",
     **{
         f"modules/{name}": name
-        for name in ("soft_shadows", "glossy", "thin_lens", "motion_blur", "cube_map")
+        for name in (
+            "soft_shadows",
+            "glossy",
+            "thin_lens",
+            "motion_blur",
+            "cube_map",
+            "microfacets",
+        )
     },
 }
 
-CODES = """(figure) => [...figure.querySelectorAll("canvas")].map((canvas) =>
+CODES = """(figure) => [...figure.querySelectorAll(".pair canvas")].map((canvas) =>
   [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data])"""
 
 
@@ -102,6 +110,68 @@ def test_the_keyboard_moves_the_sliders(browser: Any, site: Path) -> None:
         page.wait_for_function("document.querySelector('figure.computed .pair p').textContent")
         assert slider.get_attribute("aria-valuetext") == "4.2"
         assert figure.evaluate(CODES)[1] != before
+
+
+def numbers(text: str) -> list[float]:
+    return [float(each) for each in re.findall(r"[0-9]+(?:\.[0-9]+)?", text)]
+
+
+def test_the_penumbra_is_as_wide_as_geometry_says_and_the_lamp_is_dragged(
+    browser: Any, site: Path
+) -> None:
+    with untroubled(browser) as page:
+        figure = opened(page, site, "modules/soft_shadows")
+        canvas = figure.locator("canvas").nth(1)
+        before = numbers(figure.locator(".geometry").inner_text())
+        for moves in range(2):
+            radius, across, height = (
+                float(figure.get_by_label(name).input_value())
+                for name in ("Radius of the lamp", "Lamp, to the side", "Lamp, above the floor")
+            )
+            # Of a point x of the floor, the line over the edge passes the ball's centre at this distance.
+            x = np.linspace(-8, -0.01, 800_000)
+            passes = np.abs((across - x) * 1 - height * -x) / np.hypot(1, x)
+            seen = x[passes < radius]
+            wide = numbers(figure.locator(".geometry").inner_text())[3]
+            assert wide == pytest.approx(seen.max() - seen.min(), abs=0.006)
+            if moves == 0:
+                canvas.scroll_into_view_if_needed()
+                box = canvas.bounding_box()
+                page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 0.3 * box["height"])
+                page.mouse.down()
+                page.mouse.move(box["x"] + 0.85 * box["width"], box["y"] + 0.25 * box["height"])
+                page.mouse.up()
+                page.wait_for_function(
+                    "before => !document.querySelector('.geometry').textContent.includes(before)",
+                    arg=f"{before[3]:.2f} apart",
+                )
+                assert float(figure.get_by_label("Lamp, above the floor").input_value()) > height
+
+
+def test_the_lobe_of_gold_has_the_factors_of_the_course(browser: Any, site: Path) -> None:
+    """The page's numbers against the definitions: GGX and Smith's lambda, as Walter wrote them."""
+    with untroubled(browser) as page:
+        figure = opened(page, site, "modules/microfacets")
+        lobe = figure.get_by_role("slider", name="Angle of the viewer's ray")
+        lobe.focus()
+        for _ in range(5):
+            page.keyboard.press("ArrowLeft")
+        said = figure.locator(".geometry").inner_text()
+        shown = {
+            name: float(re.search(rf"{name} = ([0-9.]+[0-9])", said)[1])  # type: ignore[index]
+            for name in ("D", "G1", "G2", "F")
+        }
+        from_, alpha, at = 45.0, 0.3, numbers(said)[2]
+        assert numbers(said)[:2] == [from_, alpha]
+        i, o = np.radians([from_, at])
+        tangent = np.tan((o - i) / 2)
+        d = alpha**2 / (np.pi * np.cos((o - i) / 2) ** 4 * (alpha**2 + tangent**2) ** 2)
+        lambdas = [(np.sqrt(1 + (alpha * np.tan(each)) ** 2) - 1) / 2 for each in (i, o)]
+        # The peak is told in whole degrees.
+        assert shown["D"] == pytest.approx(d, rel=0.02)
+        assert shown["G1"] == pytest.approx(1 / (1 + lambdas[0]), abs=1e-3)
+        assert shown["G2"] == pytest.approx(1 / (1 + sum(lambdas)), abs=2e-3)
+        assert 0.77 <= shown["F"] < 0.78
 
 
 def test_without_webgl_the_page_has_its_other_pictures(browser: Any, site: Path) -> None:

@@ -1,6 +1,10 @@
 """Common mistakes and their pictures: every list has its row of figures, and what is wrong looks wrong."""
 
+import os
 import re
+import signal
+import subprocess
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -249,6 +253,34 @@ def test_a_function_that_does_not_end_is_given_up(
     assert image.is_file()
     with pytest.raises(CourseError, match=r"sampling\.disk_by_polar: no picture in 0 s"):
         Studio().files([Figure("sampling.disk_by_polar", "", 0)], tmp_path)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a signal of POSIX")
+def test_what_draws_figures_is_ended_without_a_complaint() -> None:
+    """`course quiz`, ended by another program, had left a warning of semaphores."""
+    program = (
+        "import time\n"
+        "from sitebuild.mistakes.figures import STUDIO\n"
+        "if __name__ == '__main__':\n"
+        "    STUDIO._draw({})\n"
+        "    print('drawing', flush=True)\n"
+        "    time.sleep(300)\n"
+    )
+    command = [sys.executable, "-c", program]
+    paths = os.pathsep.join((str(PROJECT), str(PROJECT / "docs")))
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": paths},
+    ) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "drawing\n"
+        process.terminate()
+        _, complained = process.communicate()
+    assert process.returncode == 128 + signal.SIGTERM
+    assert complained == ""
 
 
 def test_a_function_that_raises_is_told_in_the_caption(

@@ -2,6 +2,9 @@
 
 import atexit
 import json
+import signal
+import sys
+import threading
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -35,6 +38,9 @@ DRAWN_WITHIN = 120.0
 """Seconds after which a function is taken never to end."""
 
 PROCESSES = 2
+
+TOLD = 25
+"""Figures after which it is told how many are drawn."""
 
 QUALITY = 88
 
@@ -142,8 +148,13 @@ class Studio:
             atexit.register(
                 self.close
             )  # a pool that Python ends while it takes itself apart complains
+            if threading.current_thread() is threading.main_thread():
+                # So does one whose program is ended from outside.
+                signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
         waiting = [(f, self._pool.apply_async(_drawn, (f, *paths[f]))) for f in paths]
-        for figure, outcome in waiting:
+        for number, (figure, outcome) in enumerate(waiting):
+            if number and number % TOLD == 0:
+                click.echo(f"{number} of {len(waiting)} figures are drawn", err=True)
             try:
                 outcome.get(DRAWN_WITHIN)
             except Late:

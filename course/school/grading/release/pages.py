@@ -18,16 +18,33 @@ KINDS = {
 }
 """Kind of a part of the site -> what a reader would see there; others are figures."""
 
-_PART = re.compile(r"^<!-- site: (\w+).*?-->$", re.MULTILINE)
+_PART = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
 
 
 def plain_pages(contents: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The same files; in pages, which end in .md, what stands for a part of the site tells of it."""
+    """The same files; in pages, which end in .md, what stands for a part of the site tells of it.
+
+    Where a command makes the same of a scene that is among the files, that is told instead.
+    """
+
+    def told(part: re.Match[str]) -> str:
+        kind, name, words = part.groups()
+        scene = f"scenes/{name}.yaml"
+        if kind in _MADE_BY and scene in contents:
+            what, command = _MADE_BY[kind]
+            return f"*[{what}: `{command.format(scene=scene, words=words)}`]*"
+        return f"*[On the course's site: {KINDS.get(kind, 'a figure')}.]*"
+
     return {
-        name: _PART.sub(_told, content.decode()).encode() if name.endswith(".md") else content
+        name: _PART.sub(told, content.decode()).encode() if name.endswith(".md") else content
         for name, content in contents.items()
     }
 
 
-def _told(part: re.Match[str]) -> str:
-    return f"*[On the course's site: {KINDS.get(part[1], 'a figure')}.]*"
+_MADE_BY = {
+    "rays": ("The rays of one pixel, in 3D", "course pixel {scene} {words} --html rays.html"),
+    "before_after": ("A picture of it", "course render {scene} -o after.png"),
+    "picture": ("A picture", "course render {scene}"),
+    "shot": ("A picture", "course render {scene}"),
+}
+"""Kind of a part -> what it shows, and the command that makes it."""

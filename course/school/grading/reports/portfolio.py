@@ -46,6 +46,9 @@ COUNTS = 1, 4, 16, 64
 SAMPLES = 64
 """Samples a pixel of a picture that is shown, as far as the time goes."""
 
+ENOUGH = 16
+"""Samples a pixel below which it is said why a picture has no more."""
+
 TRIED = 4
 """Samples a pixel of a picture whose time tells that of one with more."""
 
@@ -73,6 +76,7 @@ class Shown:
     few : samples a pixel of before and after where the time was too short for ``SAMPLES``, else 0
     words : what is said of both pictures
     without : what is said of the one before
+    fixed : samples a pixel of before and after where the scene places fewer than ``ENOUGH`` itself, else 0
     """
 
     module: str
@@ -88,6 +92,7 @@ class Shown:
     few: tuple[int, int] = (0, 0)
     words: str = ""
     without: str = "Without it"
+    fixed: tuple[int, int] = (0, 0)
 
     @property
     def title(self) -> str:
@@ -230,11 +235,12 @@ def _rendered(
     after, few = _picture(scene, 0.4 * seconds, clock)
     points = tuple(_errors(scene, began + 0.65 * seconds, clock))
     without = scenes / "before" / f"{module}.yaml"
-    earlier, few_before = "", 0
+    earlier, few_before, fixed_before = "", 0, 0
     if without.is_file():
         left = seconds - (clock.now() - began)
-        picture, few_before = _picture(load_scene(without, effects), left, clock)
-        earlier = _webp(picture)
+        before = load_scene(without, effects)
+        picture, few_before = _picture(before, left, clock)
+        earlier, fixed_before = _webp(picture), _own_number(before, picture)
     height, width = after.film.samples.shape
     return Shown(
         module,
@@ -248,7 +254,14 @@ def _rendered(
         "",
         functions,
         (few_before, few),
+        fixed=(fixed_before, _own_number(scene, after)),
     )
+
+
+def _own_number(scene: Scene, picture: Picture) -> int:
+    """Samples a pixel of a picture whose scene places so few itself that it must be told; else 0."""
+    samples = math.ceil(picture.receipt.samples)
+    return samples if _fixed(scene) and samples < ENOUGH else 0
 
 
 def _costs(picture: Picture) -> tuple[tuple[str, str], ...]:

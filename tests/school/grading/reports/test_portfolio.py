@@ -190,6 +190,17 @@ def test_pictures_that_the_time_was_too_short_for_are_named_on_the_page(
     assert len(counts[0]) == 1
 
 
+def test_of_scenes_that_place_few_samples_themselves_it_is_said_why(folder: Path) -> None:
+    """Pictures of 4 samples a pixel had said nothing."""
+    four = "sampler: {type: jittered, samples: 4}\n"
+    for name, lamp, more in (("", SPHERE, ""), ("before/", POINT, four)):
+        (folder / f"{name}soft_shadows.yaml").write_text(SCENE + lamp + more)
+    text = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=8).text
+    before, after = re.findall("<figcaption>(.*?)</figcaption>", text)[:2]
+    assert "4 samples a pixel: the scene places its samples itself" in before
+    assert "places its samples itself" not in after
+
+
 def test_of_pictures_with_all_samples_nothing_is_said(
     monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:
