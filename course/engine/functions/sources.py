@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from course.base.errors import CourseWarning
-from course.base.inputs import InputLimit, read_input
 from course.engine.functions.modules import COURSE
 from course.engine.functions.notebook.reading import (
     LARGEST_NOTEBOOK,
@@ -111,6 +110,9 @@ def _defined(path: Path, _saved: int, _size: int) -> tuple[str, ...]:
 
 
 def _content(path: Path) -> bytes:
+    # Here, for a command line's help needs no NumPy.
+    from course.base.inputs import InputLimit, read_input
+
     return read_input(path, "notebook", InputLimit(LARGEST_NOTEBOOK), NotebookError)
 
 
