@@ -76,7 +76,7 @@ def lab(tmp_path: Path) -> Iterator[str]:
 
 
 def test_a_notebook_of_solutions_is_right_and_shows_what_it_is_about(
-    browser: Any, lab: str, tmp_path: Path
+    browser: Any, lab: str
 ) -> None:
     page = browser.new_context(viewport={"width": 1200, "height": 900}).new_page()
     try:
@@ -84,7 +84,7 @@ def test_a_notebook_of_solutions_is_right_and_shows_what_it_is_about(
         page.locator(".jp-Notebook .jp-Cell").first.wait_for(timeout=WAIT)
         # Where the kernel isn't there yet, it is asked for.
         select = page.get_by_role("button", name="Select", exact=True)
-        page.add_locator_handler(select, lambda: select.click())
+        page.add_locator_handler(select, select.click)
         page.locator("#jp-main-statusbar").get_by_text("Idle").wait_for(timeout=WAIT)
         page.get_by_role("menuitem", name="Run", exact=True).click()
         page.get_by_text("Run All Cells", exact=True).click()
