@@ -79,7 +79,8 @@ def why_dark(scene: Scene, packets: bool = False) -> str:
     # What moves, and the student's hierarchy, would call the student's functions.
     if reason or not isinstance(world.surface.accelerator, StaticAccelerator):
         return reason
-    if not all(map(is_known, world.lights)):
+    # Light that comes from between surfaces is met by none of these rays.
+    if world.wraps or not all(map(is_known, world.lights)):
         return ""
     film = scene.settings
     camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)

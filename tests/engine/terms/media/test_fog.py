@@ -14,6 +14,7 @@ import pytest
 from course import render
 from course.base.errors import CourseWarning, SceneError
 from course.engine.recording.recording import record
+from course.engine.scene.darkness import why_dark
 from tests.conftest import MakeScene
 from tests.engine.terms.lights.over_a_floor import assert_mean
 from tests.processes import python
@@ -334,3 +335,11 @@ def test_the_rays_of_a_pixel_tell_of_fog_and_add_up(make_scene: MakeScene, kind:
     lit = [one for one in recording.segments if one.kind == "shadow" and abs(one.start[2]) < 1]
     assert lit
     assert any(one.met == "the fog" for one in recording.segments) == (kind == "path")
+
+
+def test_fog_without_anything_that_is_lit_is_not_said_to_be_black(make_scene: MakeScene) -> None:
+    lamp = LAMPS["point"][0]
+    assert why_dark(make_scene(camera=AHEAD, lights=[lamp], media=[]))
+    scene = make_scene(camera=AHEAD, lights=[lamp], media=[fog()])
+    assert why_dark(scene) == ""
+    assert render(scene).linear.min() > 0
