@@ -16,6 +16,7 @@ def check_accepted(loaded: Loaded) -> None:
     lens, or something that moves; names file, line, key path and the remedy.
     """
     scene, whole = loaded.description, Place(loaded.document)
+    whole.check(not scene.media, "media", "none: radiosity knows light between surfaces alone")
     used = sorted({thing.material for thing in scene.objects})
     for name in used:
         _check_material(scene.materials[name], whole.at("materials", name))

@@ -13,6 +13,7 @@ import pytest
 
 from course import render
 from course.base.errors import CourseWarning, SceneError
+from course.engine.radiosity.accepting import check_accepted
 from course.engine.recording.recording import record
 from course.engine.scene.darkness import why_dark
 from tests.conftest import MakeScene
@@ -343,3 +344,8 @@ def test_fog_without_anything_that_is_lit_is_not_said_to_be_black(make_scene: Ma
     scene = make_scene(camera=AHEAD, lights=[lamp], media=[fog()])
     assert why_dark(scene) == ""
     assert render(scene).linear.min() > 0
+
+
+def test_radiosity_refuses_fog(make_scene: MakeScene) -> None:
+    with pytest.raises(SceneError, match=r"media.*expected none: radiosity"):
+        check_accepted(make_scene(media=[fog()]).loaded)
