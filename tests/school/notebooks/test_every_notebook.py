@@ -1,6 +1,6 @@
 """Every module's notebook runs to its end, stubs and solutions, one after the other in one kernel.
 
-One module here; `make stress` runs them all. Pictures are small, and what is said about their sizes is measured by hand.
+One module here; `make stress` runs them all. Pictures are small here.
 """
 
 import json
