@@ -78,7 +78,9 @@ def test_hints_by_rungs_and_places_by_cells(shared: Kernel) -> None:
 def test_what_is_checked_is_what_the_cell_says_now(shared: Kernel) -> None:
     # A cell that is run again takes the place of itself, with a key and without.
     for key in (None, "a1"):
-        shared.run(f"%%check motion_blur{RIGHT.replace('* time', '* time * 2')}", key)
+        # It would fail wherever the module is imported.
+        failing = f"FACTOR = 1 / 0\n{RIGHT.replace('* time', '* time * FACTOR')}"
+        assert "ZeroDivisionError" in shared.run(failing, key).error
         assert "right    displacement" in shared.run(f"%%check motion_blur{RIGHT}", key).text
 
 
