@@ -10,10 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from course.base.errors import EffectError
 from course.engine.core.types import Floats32, Functions, Mask
 
 STEPS = 8
 """Of all rays at a time."""
+
+MOST_NUMBERS = 2_000_000
+"""Of one ray: who needs more gets no farther."""
 
 _MIX = tuple(map(np.uint64, (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)))
 """Constants of splitmix64: G. Steele et al., "Fast splittable pseudorandom number generators", 2014."""
@@ -39,6 +43,14 @@ def numbers(state: NDArray[np.uint64], first: int, rows: int) -> Floats32:
     steps = np.arange(first + 1, first + rows + 1, dtype=np.uint64)[:, None]
     words = _mixed(state + steps * _MIX[0]) >> np.uint64(40)
     return words.astype(np.float32) * np.float32(2.0**-24)
+
+
+def _check_end(function: str, taken: int) -> None:
+    if taken > MOST_NUMBERS:
+        raise EffectError(
+            f"media.{function} comes to no end: after {taken:,} numbers a ray has neither been stopped nor come to its"
+            " limit; each step must go on by -log(1 - u) / majorant"
+        )
 
 
 @dataclass(frozen=True)
@@ -67,6 +79,7 @@ class DensityGrid:
         distance, collided = np.zeros_like(limit), np.zeros(len(limit), np.bool_)
         going, taken = np.flatnonzero(limit > 0), 0
         while len(going):
+            _check_end("delta_tracking", taken)
             way, start = direction.take(going, axis=1), distance.take(going)
             u = numbers(state.take(going), taken, 2 * STEPS).reshape(2, STEPS, -1)
             at = origin.take(going, axis=1) + start * way
@@ -85,6 +98,7 @@ class DensityGrid:
         share, distance = np.ones_like(limit), np.zeros_like(limit)
         going, taken = np.flatnonzero(limit > 0), 0
         while len(going):
+            _check_end("ratio_tracking", taken)
             way, start = direction.take(going, axis=1), distance.take(going)
             u = numbers(state.take(going), taken, STEPS)
             at = origin.take(going, axis=1) + start * way
