@@ -24,6 +24,12 @@ from course.school.grading.report import (
 SHORT = 100
 """Characters of what several checks have found, where it has been told in full before."""
 
+FEW_POINTS = (
+    "Of a function's 10 points its core has 8, its corners 1.5, the conventions, which most stubs keep, 0.5: few points"
+    " for many checks mean that the core is wrong."
+)
+"""Told where checks and points say different things."""
+
 
 class Printer:
     """Prints results as they come: a line for each function, and what went wrong under it.
@@ -78,6 +84,8 @@ class Printer:
             f"{passed} of {count(len(report.results), 'check')} passed, {report.seconds:.1f} s",
             bold=True,
         )
+        if 2 * passed > len(report.results) and 2 * report.points < report.of:
+            click.echo(FEW_POINTS)
 
     def _flush(self) -> None:
         results, self._pending = self._pending, []
