@@ -1,7 +1,10 @@
-"""Pages of the site as plain Markdown: a word stands where the site has a figure."""
+"""Pages of the site as plain Markdown: words stand where the site has figures, and for what Sphinx looks up."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from inspect import Signature, cleandoc, getdoc, isclass, isfunction, signature
+from typing import Any
 
 KINDS = {
     "convergence": "a plot of error against samples",
@@ -18,6 +21,7 @@ KINDS = {
 }
 """Kind of a part of the site -> what a reader would see there; others are figures."""
 
+_DIRECTIVES = re.compile(r"^```\{eval-rst\}\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _PART = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
 
 
@@ -35,10 +39,37 @@ def plain_pages(contents: Mapping[str, bytes]) -> dict[str, bytes]:
             return f"*[{what}: `{command.format(scene=scene, words=words)}`]*"
         return f"*[On the course's site: {KINDS.get(kind, 'a figure')}.]*"
 
+    def plain(page: str) -> str:
+        return _DIRECTIVES.sub(
+            lambda found: "\n\n".join(_described(found[1])), _PART.sub(told, page)
+        )
+
     return {
-        name: _PART.sub(told, content.decode()).encode() if name.endswith(".md") else content
+        name: plain(content.decode()).encode() if name.endswith(".md") else content
         for name, content in contents.items()
     }
+
+
+def _described(directives: str) -> Iterator[str]:
+    """What directives name: signature, or attributes and methods, and the docstring."""
+    for name in re.findall(r"^\.\. auto\w+:: ([\w.]+)$", directives, re.MULTILINE):
+        module, _, own = name.rpartition(".")
+        yield from _of(getattr(import_module(module), own), own)
+
+
+def _of(thing: Any, name: str) -> Iterator[str]:
+    given = _parameters(thing) if isfunction(thing) else ""
+    yield f"```text\n{name}{given}\n\n{cleandoc(getdoc(thing) or '')}\n```"
+    for each, member in vars(thing).items() if isclass(thing) else ():
+        if not each.startswith("_") and (isfunction(member) or isinstance(member, property)):
+            yield from _of(member, f"{name}.{each}")
+
+
+def _parameters(function: Any) -> str:
+    """Names and defaults; what they are is in the docstring."""
+    known = [one for name, one in signature(function).parameters.items() if name != "self"]
+    told = [one for one in known if one.default is one.empty or not callable(one.default)]
+    return str(Signature([one.replace(annotation=one.empty) for one in told]))
 
 
 _MADE_BY = {

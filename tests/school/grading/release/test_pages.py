@@ -25,3 +25,17 @@ def test_what_a_command_can_make_is_told_with_it() -> None:
     # Its scene isn't there.
     assert away == "*[On the course's site: the rays of one pixel, in 3D.]*"
     assert live == "*[On the course's site: a view with sliders.]*"
+
+
+def test_functions_and_classes_are_described_without_sphinx() -> None:
+    directives = b".. autofunction:: course.render\n\n.. autoclass:: course.Picture\n   :members:\n"
+    page = b"# From Python\n\n```{eval-rst}\n" + directives + b"```\n"
+    (plain,) = plain_pages({"python.md": page}).values()
+    text = plain.decode()
+    assert "eval-rst" not in text
+    assert "auto" not in text.split("render(", maxsplit=1)[0]
+    assert "\nrender(scene, *, spp=None, size=None," in text
+    assert "Parameters\n----------" in text
+    assert "\nPicture.save(path)\n\nWrite the picture" in text
+    # A property isn't called.
+    assert "\nPicture.linear\n\n(H, W, 3) float32" in text
