@@ -61,7 +61,7 @@ class Kernel:
         ids: dict[str, int] = {}
         while True:
             try:
-                said = self.client.get_iopub_msg(timeout=120)
+                said = self.client.get_iopub_msg(timeout=600)
             except Empty:
                 raise AssertionError(f"the kernel doesn't answer: {code}") from None
             if said["parent_header"].get("msg_id") != message["header"]["msg_id"]:

@@ -17,8 +17,8 @@ from course.school.notebooks.making import notebook_of
 
 pytest.importorskip("jupyterlab", reason='JupyterLab is installed by: pip install -e ".[notebook]"')
 
-WAIT = 60_000
-"""Milliseconds for all cells of a notebook, on a machine that is busy."""
+WAIT = 300_000
+"""Milliseconds for all cells of a notebook, however busy the machine is."""
 
 
 def small(text: str) -> str:
@@ -62,7 +62,7 @@ def lab(tmp_path: Path) -> Iterator[str]:
     ) as server:
         address = f"http://127.0.0.1:{port}"
         try:
-            for _ in range(300):
+            for _ in range(1500):
                 try:
                     urlopen(f"{address}/api", timeout=5).close()
                     break
@@ -79,6 +79,7 @@ def test_a_notebook_of_solutions_is_right_and_shows_what_it_is_about(
     browser: Any, lab: str
 ) -> None:
     page = browser.new_context(viewport={"width": 1200, "height": 900}).new_page()
+    page.set_default_timeout(WAIT)
     try:
         page.goto(f"{lab}/lab/tree/motion_blur.ipynb?reset")
         page.locator(".jp-Notebook .jp-Cell").first.wait_for(timeout=WAIT)
@@ -113,11 +114,14 @@ def test_a_notebook_of_solutions_is_right_and_shows_what_it_is_about(
         canvas = frame.locator(".rays canvas")
         canvas.scroll_into_view_if_needed()
         page.wait_for_timeout(500)
-        before = canvas.screenshot()
+        seen = {canvas.screenshot()}
         canvas.focus()
-        for _ in range(5):
+        for _ in range(50):
             page.keyboard.press("ArrowRight")
-        page.wait_for_timeout(300)
-        assert canvas.screenshot() != before
+            page.wait_for_timeout(100)
+            seen.add(canvas.screenshot())
+            if len(seen) > 3:
+                break
+        assert len(seen) > 3
     finally:
         page.context.close()

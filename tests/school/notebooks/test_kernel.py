@@ -229,7 +229,7 @@ def test_a_command_says_what_it_says_in_a_terminal(shared: Kernel) -> None:
 
 def test_a_kernel_that_is_started_anew_begins_where_it_is_told(shared: Kernel) -> None:
     shared.manager.restart_kernel(now=True)
-    shared.client.wait_for_ready(timeout=60)
+    shared.client.wait_for_ready(timeout=300)
     _, first, *_ = cells("motion_blur", "solutions")
     found = shared.run(first)
     assert "%%check" in found.error + found.text
