@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from course.base.errors import EffectError
-from course.engine.functions.effects import Effects
+from course.engine.functions.effects import PROJECT, Effects
 from course.engine.functions.modules import COURSE
 
 Given = Mapping[str, Callable[..., Any]]
@@ -14,13 +14,15 @@ Given = Mapping[str, Callable[..., Any]]
 
 
 class GivenEffects(Effects):
-    """Some functions of one's own; the others are those of ``Effects()``.
+    """Some functions of one's own; the others are those of ``Effects()``, or what ``functions.others`` names.
 
     Raises EffectError: the course has no function of a name, or what is given can't be called.
     """
 
     def __init__(self, functions: Given) -> None:
-        rest = Effects()
+        others = PROJECT / getattr(functions, "others", "")
+        # A student's copy has no solutions; there what isn't given has a stand-in.
+        rest = Effects(others if others != PROJECT and others.is_dir() else None)
         super().__init__(rest.folder, trusted=False)
         self._rest = rest
         self._given = {_place(name): function for name, function in functions.items()}

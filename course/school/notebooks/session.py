@@ -3,7 +3,7 @@
 import ast
 import json
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from inspect import getsource
 from types import FunctionType
 from typing import Any
@@ -27,16 +27,18 @@ class RunCell:
     number : that the notebook shows, as in In[5]
     key : which cell it is; None where the notebook doesn't say
     text : with its magics
+    failed : whether it raised an error
     """
 
     number: int
     key: str | None
     text: str
+    failed: bool = False
 
     @property
-    def functions(self) -> frozenset[str]:
-        """The functions of the course that it defines."""
-        return functions_in(self.text)
+    def names(self) -> frozenset[str]:
+        """All that it defines or imports."""
+        return bound_in(self.text)
 
 
 @dataclass(frozen=True)
@@ -71,27 +73,42 @@ class Session:
     def __init__(self, shell: Any) -> None:
         # Cells before the extension was loaded, with the one that loads it.
         texts = shell.history_manager.input_hist_raw[1:]
-        self.cells = [RunCell(number, None, text) for number, text in enumerate(texts, 1)]
+        self.cells = [
+            RunCell(number, None, text)
+            for number, text in enumerate(texts, 1)
+            # Nobody knew that magic yet, so what is below it has not run.
+            if not text.lstrip().startswith("%%check")
+        ]
         self._shell = shell
         shell.events.register("pre_run_cell", self._begun)
+        shell.events.register("post_run_cell", self._ended)
 
     def close(self) -> None:
         """Listen no longer."""
         self._shell.events.unregister("pre_run_cell", self._begun)
+        self._shell.events.unregister("post_run_cell", self._ended)
 
     def _begun(self, info: Any) -> None:
         if not info.store_history or info.silent:
             return
         key = getattr(info, "cell_id", None)
         cell = RunCell(self._shell.execution_count, key, info.raw_cell)
-        own = cell.functions
-        # Without a key, a cell is the same as one before if it defines all that the other did.
+        own = cell.names
+        # Without a key, a cell is the same as one before if it defines what the other did, or what that failed to do.
         self.cells = [
             one
             for one in self.cells
-            if not (one.key == key if key and one.key else one.functions and one.functions <= own)
+            if not (
+                one.key == key
+                if key and one.key
+                else one.names & own & MODULE_OF.keys() and (one.failed or one.names <= own)
+            )
         ]
         self.cells.append(cell)
+
+    def _ended(self, result: Any) -> None:
+        if not result.success and self.cells:
+            self.cells[-1] = replace(self.cells[-1], failed=True)
 
     def module(self, module: str) -> SessionModule:
         """What the cells make of a module, as it would be graded if the notebook had them in this order."""
@@ -107,21 +124,31 @@ class Session:
 
 
 def functions_in(text: str) -> frozenset[str]:
-    """Functions of the course that a cell defines."""
+    """Functions of the course that a cell defines, by ``def`` or by any other binding."""
+    return bound_in(text) & MODULE_OF.keys()
+
+
+def bound_in(text: str) -> frozenset[str]:
+    """All names that a cell defines or imports."""
     cells = [{"cell_type": "code", "source": text}]
     # Imported late, with IPython.
     from course.engine.functions.notebook.cells import read_cells
 
     found = read_cells(json.dumps({"cells": cells}).encode()).statements
-    names = {one.node.name for one in found if isinstance(one.node, ast.FunctionDef)}
-    return frozenset(names & MODULE_OF.keys())
+    text = ast.unparse(ast.Module([one.node for one in found], []))
+    return frozenset(scopes(text)[0])
 
 
 class Mine(Mapping[str, Callable[..., Any]]):
     """The functions of the course that a notebook has defined and written, as they are now; for ``load_scene``.
 
+    The others are the course's own, whatever files lie beside the notebook.
+
     ``names``: of the notebook
     """
+
+    others = "solutions"
+    """Whose the others are; see ``GivenEffects``."""
 
     def __init__(self, names: Mapping[str, Any]) -> None:
         self._names = names
