@@ -154,6 +154,19 @@ def test_wrong_shapes_are_axes_less_more_and_turned_and_rows() -> None:
     assert {(), (2,), (4,), (1, 3), (3, 1)} <= points
 
 
+def test_an_error_by_chance_is_no_refusal_and_says_what_is_expected() -> None:
+    def chance(center: Any, direction: Any, radius: Any) -> Any:
+        if np.ndim(center) != 1:
+            raise IndexError("too many indices")
+        return shifted(center, direction, radius)
+
+    with pytest.raises(Failure) as failure:
+        LAWS["refuses"].run(SHIFTED, trial(chance))
+    assert failure.value.expected.startswith("ValueError for center of shape ")
+    assert failure.value.found == "IndexError: too many indices"
+    assert "came with the stub" in failure.value.hint
+
+
 class Watching:
     """A ``Caller`` that calls another, and keeps the largest u that came."""
 
