@@ -26,6 +26,7 @@ from benchmarks.figures import Figure, table, write_ratios
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling
 from benchmarks.many_lights import measure_many_lights
+from benchmarks.media import measure_media
 from benchmarks.microfacets import measure_microfacets
 from benchmarks.multiple_importance import measure_multiple_importance
 from benchmarks.path_tracing import measure_path_tracing
@@ -63,6 +64,7 @@ MEASURES = {
     "multiple_importance": measure_multiple_importance,
     "environment_light": measure_environment_light,
     "microfacets": measure_microfacets,
+    "media": measure_media,
     "many_lights": measure_many_lights,
     "denoising": measure_denoising,
     "quasi_monte_carlo": measure_quasi_monte_carlo,

@@ -29,9 +29,7 @@ def test_cards_say_how_long_it_takes_and_after_what(site: Path) -> None:
 def test_status_lists_modules_in_the_order_of_the_cards(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def unwritten(
-        _folder: Path, module: str, _sources: dict[str, bytes]
-    ) -> list[dict[str, object]]:
+    def unwritten(_folder: Path, module: str, *_: object) -> list[dict[str, object]]:
         told = {"title": "", "found": "", "again": "", "page": ""}
         return [{"module": module, "name": "f", "state": "to do", "points": 0, "of": 10, **told}]
 

@@ -92,3 +92,48 @@ def ratio_tracking(grid, majorant, origin, direction, limit, u):
             left *= 1 - _density_at(grid, place[:, None])[0] / majorant
         share[i], distance[i] = left, t
     return share, distance
+
+
+def sample_henyey_greenstein(direction, g, u):
+    """One direction after the other, turned about the light's way."""
+    _check(direction=(direction, 3, "N"), u=(u, 2, "N"))
+    _check_g(g)
+    dtype = np.result_type(direction, u)
+    ways, densities = np.empty(direction.shape, dtype), np.empty(u.shape[1], dtype)
+    for i in range(u.shape[1]):
+        d = direction[:, i].astype(float)
+        xi = float(u[0, i])
+        if abs(g) < 1e-5:
+            cos = 2 * xi - 1
+        else:
+            inner = (1 - g * g) / (1 - g + 2 * g * xi)
+            cos = min(max((1 + g * g - inner**2) / (2 * g), -1.0), 1.0)
+        sin, turn = math.sqrt((1 - cos) * (1 + cos)), 2 * math.pi * float(u[1, i])
+        # The axis that is farthest from the way, made perpendicular to it.
+        axis = np.zeros(3)
+        axis[np.argmin(np.abs(d))] = 1
+        across = np.cross(d, axis)
+        across /= np.linalg.norm(across)
+        along = np.cross(d, across)
+        way = cos * d + sin * (math.cos(turn) * across + math.sin(turn) * along)
+        ways[:, i] = way / np.linalg.norm(way)
+        densities[i] = (1 - g * g) / (4 * math.pi * (1 + g * g - 2 * g * cos) ** 1.5)
+    return ways, densities
+
+
+def equiangular(origin, direction, light, limit, u):
+    """The angle at the lamp, ray by ray."""
+    _check_rays(origin, direction, limit, u, "N")
+    _check(origin=(origin, 3, "N"), light=(light, 3, "N"))
+    dtype = np.result_type(origin, direction, light, limit, u)
+    distances, densities = np.empty(len(limit), dtype), np.empty(len(limit), dtype)
+    for i in range(len(limit)):
+        way, end = direction[:, i].astype(float), float(limit[i])
+        lamp = light[:, i].astype(float) - origin[:, i].astype(float)
+        foot = float(np.dot(lamp, way))
+        height = max(float(np.linalg.norm(lamp - foot * way)), 1e-6 * end)
+        low, high = math.atan2(-foot, height), math.atan2(end - foot, height)
+        angle = low + (high - low) * float(u[i])
+        distances[i] = min(max(foot + height * math.tan(angle), 0.0), end)
+        densities[i] = math.cos(angle) ** 2 / (height * (high - low))
+    return distances, densities

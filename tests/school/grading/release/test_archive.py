@@ -61,7 +61,8 @@ def test_the_archive_has_nothing_that_could_hide_a_solution(archive: Path) -> No
     assert {f"penumbra/{name}" for name in LICENSES} <= set(names)
     hiding = ("solutions/", "tests/", "__pycache__", ".pyc", ".ipynb", ".whl", ".git", ".venv")
     found = [name for name in names if any(part in name for part in hiding)]
-    assert found == ["penumbra/tests/test_copy.py"]
+    # The notebook tries functions of its own, and has none of an assignment.
+    assert found == ["penumbra/tests/test_copy.py", "penumbra/docs/notebooks/first_look.ipynb"]
 
 
 def test_every_scene_that_is_listed_is_handed_out(archive: Path) -> None:
