@@ -7,9 +7,10 @@ import msgspec
 import numpy as np
 import pytest
 
-from course import Scene
+from course import Scene, render
 from course.engine.formats.yaml.description import MaterialDescription
 from course.engine.scene.building.materials import base_color, returned_share
+from tests.conftest import MakeScene
 
 GREY = [0.8, 0.8, 0.8]
 
@@ -64,3 +65,13 @@ def test_the_returned_share_counts_diffuse_reflection_mirror_and_glass(
     keys: dict[str, Any], share: list[float]
 ) -> None:
     np.testing.assert_allclose(returned_share(material(**keys)), share, rtol=1e-15)
+
+
+@pytest.mark.parametrize("way", ["balance", "power", "lamp"])
+def test_a_scene_without_objects_has_no_material_that_shines(
+    make_scene: MakeScene, way: str
+) -> None:
+    """A column that stands in where there is no material was taken for a lamp, and the scene ended in a ValueError."""
+    lights = [{"type": "ambient", "radiance": 1}]
+    scene = make_scene(materials={}, lights=lights, integrator={"gloss_sampling": way})
+    assert not render(scene, spp=1, size=(4, 4)).linear.any()

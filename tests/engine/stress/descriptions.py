@@ -67,7 +67,8 @@ def _of(kind: inspect.Type, key: str) -> Strategy:
         case inspect.VarTupleType():
             # No scene without objects or lights, which show nothing.
             least = kind.min_length or int(key in ("objects", "lights"))
-            most = kind.max_length or 3
+            # Two fogs mostly overlap, which is refused.
+            most = 1 if key == "media" else kind.max_length or 3
             return st.lists(_of(kind.item_type, key), min_size=least, max_size=most)
         case inspect.LiteralType():
             return st.sampled_from(kind.values)
@@ -193,6 +194,11 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             thing = description["objects"][which]
             light["object"] = thing["name"] = f"lamp {which}"
             description["materials"][thing["material"]].setdefault("emission", 2.0)
+    for fog in description.get("media", []):
+        corners = zip(*(fog.get("box") or ([-1, -1, -1], [1, 1, 1])), strict=True)
+        fog["box"] = [list(corner) for corner in zip(*map(sorted, corners), strict=True)]
+        if fog.get("grid") is not None:
+            fog.pop("noise", None)
     things = [*description["objects"], *description["lights"]]
     if any(any(thing.get("motion", {}).get("velocity", [])) for thing in things):
         # A hierarchy holds what stands still.

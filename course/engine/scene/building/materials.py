@@ -105,7 +105,9 @@ def compile_materials(
     """
     count = len(materials) + len(emission)
     ambient, diffuse, specular, mirror, absorption, emitted = np.zeros((6, 3, max(count, 1)))
-    unlit = np.zeros((3, max(count, 1)))
+    unlit, number = np.zeros((3, max(count, 1))), np.arange(max(count, 1))
+    # Without any material there is a column that nothing has.
+    lamps = (number >= len(materials)) & (number < count)
     exponent, index = np.ones(max(count, 1)), np.zeros(max(count, 1))
     for column, material in enumerate(materials.values()):
         color = base_color(material)
@@ -135,7 +137,7 @@ def compile_materials(
         index.astype(f),
         absorption.astype(f),
         emitted.astype(f),
-        np.arange(max(count, 1)) >= len(materials),
+        lamps,
         conductors=_conductors(materials, max(count, 1)),
         highlights=compile_highlights(materials, max(count, 1)),
         plain=plain_highlights(materials, max(count, 1)),
