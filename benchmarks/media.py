@@ -1,4 +1,4 @@
-"""Light that fog scatters into a ray that passes a lamp: how soon it is known by three ways to choose places on the ray.
+"""Light that fog scatters into a ray that passes a lamp: how soon it is known by three ways to choose places on it.
 
 The ray is 4 units long, and the lamp stands a tenth of a unit beside its middle. Places are chosen evenly, as dense as
 the fog loses light, or by equal angles seen from the lamp (Kulla and Fajardo, "Importance sampling techniques for path
