@@ -39,6 +39,8 @@ class StudentError(CourseError):
         self.kind, self.type, self.traceback = kind, type, traceback
         self.module_wide = module_wide
         self.arguments, self.remedy = arguments, remedy
+        self.expected = "a value"
+        """What should have come in its place."""
         self.example = ""
         """The smallest call that gives no usable value, where somebody has looked for it."""
 

@@ -24,20 +24,22 @@ def refuses(function: Function, trial: Trial) -> None:
 
 
 def _refused(function: Function, trial: Trial, a: Arguments, shown: str) -> None:
-    found, slip = "no error", "not-refused"
+    expected, hint = (
+        f"ValueError for {shown}",
+        "The checks at the function's top came with the stub.",
+    )
     try:
         trial.call(*a.values())
     except StudentError as error:
         if error.kind == "raised" and error.type == "ValueError":
             return
-        if error.kind == "raised":
-            # Another error that it came to by chance.
-            found, slip = f"{error.type}: {error}", ""
         # What is no value at all came back nonetheless: it wasn't refused.
-        elif error.kind != "bad value":
+        if error.kind != "bad value":
+            if error.kind == "raised":
+                # Another error that it came to by chance.
+                error.expected, error.remedy = expected, hint
             raise
-    hint = "The checks at the function's top came with the stub."
-    raise Failure(f"ValueError for {shown}", found, call(function.name, a), hint, slip=slip)
+    raise Failure(expected, "no error", call(function.name, a), hint, slip="not-refused")
 
 
 def misshapen(function: Function, argument: Argument, value: Any) -> list[Array]:

@@ -91,7 +91,7 @@ def troubled(module: str, check: Check, error: StudentError) -> Result:
         "crashed": Status.CRASHED,
     }.get(error.kind, Status.FAILED)
     found = f"{error.type}: {error}" if error.kind == "raised" else str(error)
-    expected = "" if error.kind == "missing" else "a value"
+    expected = "" if error.kind == "missing" else error.expected
     called_with = error.arguments and f"arguments: {error.arguments}"
     where = "\n".join(filter(None, (error.traceback.rstrip(), called_with)))
     told = {"expected": expected, "found": found, "where": where, "hint": error.remedy}
