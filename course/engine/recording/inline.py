@@ -30,7 +30,7 @@ _COLOURS = dict(
 )
 """Of rays, as the page has them in the light."""
 
-_START, _END, _KIND, _MET = 4, 5, 3, 6
+_DEPTH, _KIND, _START, _END, _MET = 2, 3, 4, 5, 6
 
 
 def frame(story: Story) -> str:
@@ -50,7 +50,9 @@ def still(story: Story) -> bytes:
     data = view_data(story)
     rays = [row for row in data["segments"] if data["names"][row[_MET]] != "environment"]
     ends = np.array([row[_END] for row in rays] or [data["camera"]["eye"]], np.float64)
-    seen = _View(np.array(data["camera"]["eye"]), np.array(data["camera"]["up"]), ends)
+    hits = [row[_END] for row in rays if row[_DEPTH] == row[_KIND] == 0]
+    hit = np.array(hits[len(hits) // 2]) if hits else None
+    seen = _View(np.array(data["camera"]["eye"]), np.array(data["camera"]["up"]), ends, hit)
     width, height = (FINER * side for side in SIZE)
     picture = Image.new("RGB", (width, height), _SKY)
     pen = ImageDraw.Draw(picture, "RGBA")
@@ -84,9 +86,10 @@ class _View:
     ----------
     eye, up : (3,) of the scene's camera
     ends : (n, 3) of rays that hit something
+    hit : (3,) where one of the camera's rays ends, whose neighbourhood is seen; None if none hits anything
     """
 
-    def __init__(self, eye: Floats64, up: Floats64, ends: Floats64) -> None:
+    def __init__(self, eye: Floats64, up: Floats64, ends: Floats64, hit: Floats64 | None) -> None:
         focus = ends.mean(axis=0) * 0.75 + eye * 0.25
         extent = max(float(np.linalg.norm(np.vstack([ends, eye]) - focus, axis=1).max()), 1e-9)
         axis = int(np.abs(up).argmax())
@@ -99,7 +102,11 @@ class _View:
         self.out = flat * np.cos(TILTED) + above * np.sin(TILTED)
         self.right = _unit(np.cross(above, self.out))
         self.above = np.cross(self.out, self.right)
-        self.eye = focus + self.out * 2.6 * extent
+        distance = 2.6 * extent
+        close = distance if hit is None else 1.9 * float(np.linalg.norm(hit - eye))
+        if hit is not None and close < distance:
+            focus, distance = hit * 0.75 + eye * 0.25, close
+        self.eye = focus + self.out * distance
         self.nearest = 0.05 * extent
 
     def placed(self, points: Floats64) -> Any:
