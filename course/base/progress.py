@@ -56,10 +56,15 @@ def reported(progress: Report | bool | None, label: str) -> AbstractContextManag
     return progress_bar(label) if shell is None else _in_notebook(label)
 
 
+def running_shell() -> Any:
+    """IPython's shell in this process; None where there is none, and IPython isn't imported."""
+    ipython = sys.modules.get("IPython")
+    return ipython.get_ipython() if ipython is not None else None
+
+
 def _notebook() -> Any:
     """The shell of a notebook that is run in this process; None where there is none."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
+    shell = running_shell()
     return shell if hasattr(shell, "kernel") else None
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from course.base.errors import CourseWarning
+from course.base.progress import running_shell
 from course.engine.functions.modules import COURSE
 from course.engine.functions.notebook.reading import (
     LARGEST_NOTEBOOK,
@@ -179,9 +180,6 @@ def spot(name: str, line: int, file: Path) -> str:
 
 def _live(name: str) -> str:
     """The cell in which code was run, as the notebook numbers it; empty where it isn't of a notebook that is run."""
-    import sys
-
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
+    shell = running_shell()
     known = shell.compile.format_code_name(name) if shell is not None else None
     return f"cell {known[1]}" if known and known[0] == "Cell" else ""

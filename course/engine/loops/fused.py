@@ -367,9 +367,10 @@ def _eye(integrator: Integrator, dimensions: Dimensions) -> number_kernels.Eye:
     )
 
 
-def _placed(integrator: Integrator, draws: Draws) -> Floats32:
+def _placed(
+    before: tuple[RectangleLight | SphereLight, ...], depths: int, draws: Draws
+) -> Floats32:
     """``Numbers.placed`` of a block."""
-    before, depths = placed_before(integrator), depths_of_lights(integrator)
     if not before:
         return _NO_NUMBERS
     placed = np.empty((len(before), depths, 3, draws.block.size), np.float32)
@@ -492,7 +493,7 @@ class FusedTracer(Tracer):
         else:
             tables = np.zeros((0, 0, 0), np.uint32), 0, np.zeros((0, 0), np.uint64)
             drawn = self._drawn(draws)
-        if not makes_camera_rays(self):
+        if not self._makes_camera_rays:
             offsets = draws("pixel").reshape(2, -1, block.samples)
             across, down = (x[:, None] + offsets[0]).ravel(), (y[:, None] + offsets[1]).ravel()
             rays = integrator.camera_rays(across, down, draws)
@@ -502,10 +503,19 @@ class FusedTracer(Tracer):
             seen[7:] = offsets.reshape(2, -1)
         pixels = np.ascontiguousarray(block.pixels)
         points, first, salts = tables
-        placed = _placed(integrator, draws)
+        placed = _placed(self._placed_before, depths_of_lights(integrator), draws)
         return number_kernels.Numbers(
             pixels, x, y, block.samples, points, first, salts, drawn, seen, placed
         )
+
+    @cached_property
+    def _placed_before(self) -> tuple[RectangleLight | SphereLight, ...]:
+        # Whose a function is is told by its file: not once a tile.
+        return placed_before(self.integrator)
+
+    @cached_property
+    def _makes_camera_rays(self) -> bool:
+        return makes_camera_rays(self)
 
     @property
     def _draws_before(self) -> bool:

@@ -7,11 +7,11 @@ from course.base.errors import CourseError
 from course.engine.core.film import Film
 from course.engine.core.samplers import Sampler
 from course.engine.core.schedule import Executor, Run, UniformSchedule
-from course.engine.core.tiles import PASS, Work, pass_size, tile_picture
+from course.engine.core.tiles import PASS, Work, pass_size
 from course.engine.core.tracer import Tracer
 from course.engine.functions.effects import Bound
 from course.engine.render.job import Job, Mode
-from course.engine.terms.work import DividedSchedule, preview
+from course.engine.terms.work import DividedSchedule, preview, whole_pass
 
 MANY = 64
 """Samples that there is time for, from which on the border of a pass that is cut short can't be seen."""
@@ -34,12 +34,9 @@ class TimedSchedule(DividedSchedule):
             # If a whole pass surely fits, a preview would be wasted.
             if size <= quick or self.done:
                 break
-            before = executor.seconds_left
-            run(preview(settings, quick), 0.0, 0.0)
+            fitting = _fitting(run, executor, preview(settings, quick), quick)
             if executor.interrupted:
                 return False
-            left = executor.seconds_left
-            fitting = quick * left / max(before - left, 1e-9)
             if sampler.extensible and fitting < min(MANY, settings.samples / FAR):
                 return self._evenly(run, executor, fitting)
             if size < 0.5 * fitting:
@@ -52,16 +49,22 @@ class TimedSchedule(DividedSchedule):
         A pass of always as many would end somewhere in the picture, and its border would be seen.
         """
         settings, done = self.tracer.settings, 0
-        while (before := executor.seconds_left) > 0 and not executor.interrupted:
+        while executor.seconds_left > 0 and not executor.interrupted:
             # One sample would be that of the preview.
             least = 1 if done else 2
             samples = min(max(int(SURELY * fitting), least), PASS, settings.samples - 1 - done)
-            tiles = tile_picture(settings.width, settings.height, samples)
-            run([Work(tile, 0, done, samples, True) for tile in tiles], 0.0, 0.0)
+            work = whole_pass(settings, done, samples, summed=True)
+            fitting = _fitting(run, executor, work, samples)
             done += samples
-            left = executor.seconds_left
-            fitting = samples * left / max(before - left, 1e-9)
         return False
+
+
+def _fitting(run: Run, executor: Executor, work: list[Work], samples: int) -> float:
+    """Do a pass of so many samples; return how many more there is time for."""
+    before = executor.seconds_left
+    run(work, 0.0, 0.0)
+    left = executor.seconds_left
+    return samples * left / max(before - left, 1e-9)
 
 
 def make(

@@ -72,8 +72,13 @@ class DividedSchedule(UniformSchedule):
 
 def preview(settings: Settings, samples: int) -> list[Work]:
     """A quick pass over the whole picture, which later passes replace."""
+    return whole_pass(settings, 0, samples, summed=False)
+
+
+def whole_pass(settings: Settings, first: int, samples: int, *, summed: bool) -> list[Work]:
+    """One pass over the whole picture, in tiles of its own; see ``Work``."""
     return [
-        Work(tile, 0, 0, samples, False)
+        Work(tile, 0, first, samples, summed)
         for tile in tile_picture(settings.width, settings.height, samples)
     ]
 

@@ -84,8 +84,8 @@ def edges_and_faces(
 
     Each triangle's own unit is the largest coordinate of its edges, so that no product leaves float64's range.
 
-    Returns
-    -------
+    Yields
+    ------
     which : of the triangles
     edges : (3, 3, n), from corner 0 to 1, 1 to 2 and 2 to 0
     faces : (3, n), cross products of the first two
