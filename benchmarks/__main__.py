@@ -29,6 +29,7 @@ from benchmarks.many_lights import measure_many_lights
 from benchmarks.media import measure_media
 from benchmarks.microfacets import measure_microfacets
 from benchmarks.multiple_importance import measure_multiple_importance
+from benchmarks.own_functions import measure_own_functions
 from benchmarks.path_tracing import measure_path_tracing
 from benchmarks.process import measure_processes
 from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
@@ -46,6 +47,7 @@ OUT = Path("out/bench")
 MEASURES = {
     "engine": measure_engine,
     "effects": measure_effects,
+    "own_functions": measure_own_functions,
     "degenerate": measure_degenerate,
     "process": measure_processes,
     "scaling": measure_scaling,
