@@ -286,4 +286,4 @@ def _check_grid(grid, majorant):
     if np.ndim(grid) != 3:
         raise ValueError(f"grid must have shape (X, Y, Z), got {np.shape(grid)}")
     if not 0 < majorant < np.inf:
-        raise ValueError(f"majorant must be above 0 and finite, got {majorant}")
+        raise ValueError(f"majorant must be finite and > 0, got {majorant}")

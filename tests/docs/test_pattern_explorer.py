@@ -348,10 +348,9 @@ def test_the_drawing_follows_the_scheme(explorer: Any) -> None:
     }"""
     for scheme in ("light", "dark"):
         explorer.emulate_media(color_scheme=scheme)
-        explorer.wait_for_timeout(50)
-        contrast, drawn = explorer.evaluate(ratio)
-        assert contrast > 4.5
-        assert drawn > 500
+        explorer.wait_for_function(
+            f"() => {{ const [contrast, drawn] = ({ratio})(); return contrast > 4.5 && drawn > 500; }}"
+        )
 
 
 def test_pixels_are_the_screens(browser: Any, site: Path) -> None:

@@ -19,6 +19,8 @@ EXCUSED = {
     # Negative parts of an index are refused; a view looks from above, but for the worst directions.
     "in 2 of 8 octants": ("n", "k"),
     "in 5 of 8 octants": ("wo",),
+    # Two colours that aren't any are asked for as well: one with a negative number, one with a number that is none.
+    "in 3 of 8 octants": ("sigma_t", "sigma_s", "weights"),
 }
 """What can't be negative: random numbers, densities, places in a triangle, light, its colours, shares and
 variances, indices of refraction, and heights of what looks at a surface."""

@@ -150,7 +150,8 @@ RANGES = {
     "hemicube_form_factors-k": "even and >= 2",
     "shooter": "from 0 to 3",
     "stops": "finite",
-    "key": "finite and > 0",
+    **dict.fromkeys(("key", "majorant"), "finite and > 0"),
+    "g": "from -0.99 to 0.99",
     "burn": "from 0 to 100",
     "saturation": "finite and >= 0",
 }

@@ -380,15 +380,15 @@ STEPS = 6
 
 
 def _uneven(draw: Draw) -> dict[str, Any]:
-    """A grid of other sizes along each axis, and rays through it and beside it."""
+    """A grid of other sizes along each axis, thin or dense, and rays through it and beside it."""
     shape = tuple(draw.rng.permutation((2, 3, 4)))
-    grid = draw.rng.uniform(0.1, 0.9, shape)
+    thick = draw.number(0.125, 8)
     return {
-        "grid": grid,
-        "majorant": float(draw.rng.uniform(1, 3)),
-        "origin": draw.uniform(0, 1, 3, draw.n),
+        "grid": draw.rng.uniform(0.1, 0.9, shape) * thick,
+        "majorant": float(draw.rng.uniform(1, 3) * thick),
+        "origin": draw.uniform(-0.5, 1.5, 3, draw.n),
         "direction": draw.directions() * draw.uniform(0.3, 1, draw.n),
-        "limit": draw.uniform(0.5, 3, draw.n),
+        "limit": draw.uniform(0.5, 3, draw.n) / thick,
     }
 
 

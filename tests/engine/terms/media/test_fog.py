@@ -271,6 +271,10 @@ def test_densities_of_a_million_and_of_nothing(make_scene: MakeScene, kind: str)
         ([fog(g=-1)], r"media\[0\].g"),
         ([fog(extinction=-1)], r"media\[0\].extinction"),
         ([fog(box=[[0, 0, 0], [1, 0, 1]])], r"media\[0\].box.*room between"),
+        (
+            [fog(box=[[9, 0, 0], [9.00001, 1, 1]])],
+            r"media\[0\].box.*along x.*expected at least 0.0001",
+        ),
         ([fog(noise={})], r"media\[0\].extinction.*one number"),
         ([fog(extinction=1, noise={}, box=None)], r"media\[0\].noise.*box"),
         ([fog(extinction=1, noise={}, grid="grid.npy")], r"media\[0\].*both grid and noise"),

@@ -14,7 +14,7 @@ from course.engine.core.lights.sample import TO_THE_LIGHT
 from course.engine.core.types import Floats32, Floats64
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.description import rgb
-from course.engine.formats.yaml.document import spell
+from course.engine.formats.yaml.document import KeyPath, spell
 from course.engine.formats.yaml.loading import Loaded, bytes_of_files
 from course.engine.functions.effects import Bound
 from course.engine.scene.building.frame import Frame, in_range, in_reach
@@ -28,6 +28,9 @@ from course.engine.terms.world import FullWorld
 
 MOST_CELLS = 1 << 26
 """Of a grid from a file: 256 MB of float32."""
+
+THINNEST = 1e-4
+"""Least edge of a box over its distance from the scene's middle: rounding moves its faces by a thousandth of it."""
 
 
 def compiled(
@@ -124,8 +127,21 @@ def _fog(
     low, high = (frame.position(corner) if np.isfinite(corner).all() else corner for corner in box)
     if np.isfinite(box).all():
         in_reach(np.stack((low, high)), loaded, (*path, "box"), "a corner")
+        _check_edges(low, high, loaded, (*path, "box"))
     corners = low.astype(np.float32), high.astype(np.float32)
     return Fog(*corners, extinction, albedo, medium.g, functions, grid)
+
+
+def _check_edges(low: Floats64, high: Floats64, loaded: Loaded, path: KeyPath) -> None:
+    """Refuse a box so thin that its faces are rounded towards, or onto, each other."""
+    farthest = np.maximum(np.abs(low), np.abs(high))
+    for axis, edge, far in zip("xyz", high - low, farthest, strict=True):
+        if edge < THINNEST * far:
+            raise loaded.document.error(
+                path,
+                f"along {axis} it is {edge / far:.1e} of its distance from the middle of the scene:"
+                f" expected at least {THINNEST:g} of it, which float32 can hold; give it more room, or move it",
+            )
 
 
 def _densities(loaded: Loaded, number: int, box: Floats64) -> Floats32 | None:
