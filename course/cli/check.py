@@ -16,7 +16,6 @@ from course.base.errors import CourseError
 from course.cli.options import FAILED, OUT_FILE, folder_option, modules_argument
 from course.cli.outputs import check_outputs
 from course.cli.watching import await_change, times
-from course.engine.functions.modules import meant
 from course.engine.functions.notebook.reading import UNNEEDED
 from course.engine.functions.sources import cells_of, find_module, is_notebook, named, told_place
 
@@ -109,9 +108,10 @@ def _check(
     arrays: References,
     rungs: int,
 ) -> Report:
+    from course.school.grading.catalog import meant_check
     from course.school.grading.grading import grade
     from course.school.grading.references import has_references
-    from course.school.grading.reports.printing import Printer, loops_in, place_told
+    from course.school.grading.reports.printing import Printer, loops_in, order_in, place_told
     from course.school.grading.submissions import find_modules, read_found
     from course.school.grading.worker.sandbox import plain
 
@@ -119,14 +119,14 @@ def _check(
     for path in paths.values():
         if path.parent != folder and path != folder:
             click.echo(f"{folder / path.name} is missing; {path} is checked in its place", err=True)
-    for told in dict.fromkeys(
-        told
+    for said in dict.fromkeys(
+        f"{path}: {told}"
         for module, path in paths.items()
         if is_notebook(path)
         for told in cells_of(path, module).told
         if not told.startswith(UNNEEDED)
     ):
-        click.echo(f"{folder}: {told}", err=True)
+        click.echo(said, err=True)
     chosen = _chooser(only)
     if not has_references(seed):
         chosen = _without_references(chosen, seed)
@@ -137,9 +137,11 @@ def _check(
         loops=lambda result: (
             loops_in(paths[result.module], result) if result.module in paths else ""
         ),
+        slips=lambda result: order_in(sources.get(result.module, b""), result),
     )
+    sources = read_found(folder, paths)
     report = grade(
-        read_found(folder, paths),
+        sources,
         arrays,
         seed=seed,
         modules=modules,
@@ -156,24 +158,10 @@ def _check(
                 f"only checks that compare with references are asked for: leave --seed {seed} out"
             )
         raise CourseError(
-            f"--only {only}: no check of {', '.join(modules)} has that name{_near(only, modules)}"
+            f"--only {only}: no check of {', '.join(modules)} has that name{meant_check(only or '', modules)}"
         )
     shown.end(report)
     return report
-
-
-def _near(only: str | None, modules: tuple[str, ...]) -> str:
-    """The function or check that may be meant by a name that isn't one; empty where none is alike."""
-    from course.school.grading.catalog import module_checks
-
-    checks = [check for module in modules for check in module_checks(module).checks]
-    names = {check.function for check in checks}
-    function, _, name = (only or "").partition("/")
-    if function in names:
-        near = meant(name, [check.name for check in checks if check.function == function])
-        return f"; did you mean {function}/{near}?" if near else ""
-    near = meant(function, names)
-    return f"; did you mean {near}?" if near else ""
 
 
 def _print_lines(report: Report, paths: dict[str, Path], folder: Path) -> None:
@@ -205,7 +193,9 @@ def _stopped(path: Path, module: str, result: Result) -> Place | None:
     """Where Python has stopped: the last line of its traceback that is of the module's file; None if there is none."""
     file = path.name if is_notebook(path) else f"{module}.py"
     lines = re.findall(
-        rf"^ *File \"{re.escape(file)}\",(?: cell (\d+),)? line (\d+)", result.where, re.MULTILINE
+        rf"^ *File \"{re.escape(file)}\",(?: cell (\d+)[^,]*,)? line (\d+)",
+        result.where,
+        re.MULTILINE,
     )
     return (int(lines[-1][0] or 0), int(lines[-1][1])) if lines else None
 

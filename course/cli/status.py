@@ -33,8 +33,10 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
         if not as_json:
             click.echo(f"checking {module}", err=True)
 
-    of = dict(zip(modules, progress(folder, modules, before), strict=True))
-    found = [of[module] for module in TAUGHT if module in of]
+    made = progress(folder, modules, before, together=True)
+    of = {functions[0].module: functions for functions in made if functions}
+    # The picture of all modules together is of none of them.
+    found = [of[module] for module in (*TAUGHT, *of.keys() - TAUGHT.keys()) if module in of]
     every = [function for functions in found for function in functions]
     coming = next_one(every)
     if as_json:
@@ -46,7 +48,7 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
         }
         click.echo(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False))
         return
-    rows = [_row(functions) for functions in found if functions]
+    rows = [_row(functions) for functions in found]
     if sys.stdout.isatty():
         _print_rich(rows)
     else:
@@ -58,9 +60,11 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
         click.echo("next: nothing; every function is right")
         return
     click.echo(f"next: {coming.module}.{coming.name}, {_state(coming)}")
-    click.echo(f"  write  {told_place(_near(coming.file), (coming.cell, coming.line))}")
+    if coming.module in TAUGHT:
+        click.echo(f"  write  {told_place(_near(coming.file), (coming.cell, coming.line))}")
     click.echo(f"  read   {coming.page}")
-    click.echo(f"  check  course check {coming.module} --only {coming.name}")
+    module = f"{coming.module} " if coming.module in TAUGHT else ""
+    click.echo(f"  check  course check {module}--only {coming.name}")
 
 
 def _near(file: str) -> str:
@@ -87,7 +91,11 @@ def _row(functions: list[FunctionProgress]) -> tuple[str, str, str, str]:
         if begun
         else "to do"
     )
-    return functions[0].module, state, f"{right} of {len(functions)}", _points(functions)
+    from course.engine.functions.modules import COURSE
+
+    module = functions[0].module
+    name = module if module in COURSE else "all together"
+    return name, state, f"{right} of {len(functions)}", _points(functions)
 
 
 def _points(functions: list[FunctionProgress]) -> str:
@@ -97,8 +105,11 @@ def _points(functions: list[FunctionProgress]) -> str:
 
 
 def _total(functions: list[FunctionProgress]) -> str:
-    right = sum(one.state == "right" for one in functions)
-    return f"{right} of {len(functions)} functions are right, {_points(functions)} points"
+    from course.engine.functions.modules import COURSE
+
+    own = [one for one in functions if one.module in COURSE]
+    right = sum(one.state == "right" for one in own)
+    return f"{right} of {len(own)} functions are right, {_points(functions)} points"
 
 
 def _print_rich(rows: list[tuple[str, str, str, str]]) -> None:

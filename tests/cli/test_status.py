@@ -10,8 +10,11 @@ import pytest
 
 from course.cli.main import commands
 from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import COURSE
 from course.school.grading import progress as told
+from course.school.grading.pictures.whole import ALL, NAME
 from course.school.grading.progress import KEPT, FunctionProgress, next_one
+from course.school.grading.submissions import find_modules, read_found
 
 CliRunner = pytest.importorskip("click.testing").CliRunner
 
@@ -52,6 +55,29 @@ def test_points_states_and_what_is_next(folder: Path) -> None:
     assert f"sampling.py:{coming['line']}" in text
 
 
+def test_the_points_of_all_are_those_of_a_report(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(told, "_checked", lambda _where, module, *_: [_none(module)])
+    found = list(told.progress(tmp_path, COURSE, together=True))
+    assert [functions[0].module for functions in found] == [*COURSE, NAME]
+    # Without the checks, which a fresh folder's status runs for seconds.
+    assert NAME not in [f[0].module for f in told.progress(tmp_path, COURSE)]
+
+
+def test_the_picture_of_all_together_is_checked_for_what_it_is_worth(tmp_path: Path) -> None:
+    for module in ALL:
+        shutil.copy(PROJECT / "assignments" / f"{module}.py", tmp_path)
+    (one,) = told._checked(tmp_path, NAME, read_found(tmp_path, find_modules(tmp_path, ALL)), {})
+    assert (one["state"], one["points"], one["of"]) == ("to do", 0, 3)
+
+
+def _none(module: str) -> dict[str, object]:
+    known = vars(one(module, "a", "to do")).copy()
+    del known["file"], known["line"], known["cell"]
+    return known
+
+
 def test_only_what_has_changed_is_checked_again(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -59,9 +85,7 @@ def test_only_what_has_changed_is_checked_again(
 
     def noting(_where: Path, module: str, *_of: object) -> list[dict[str, object]]:
         checked.append(module)
-        known = vars(one(module, "a", "to do")).copy()
-        del known["file"], known["line"], known["cell"]
-        return [known]
+        return [_none(module)]
 
     monkeypatch.setattr(told, "_checked", noting)
     first = status(folder)

@@ -196,16 +196,26 @@ def asked_in(frame: FrameType | None) -> str:
 
     ``frame``: the innermost of the thread
     """
+    call, inner = call_in(frame)
+    if call is None:
+        return ""
+    guard = call.f_locals["self"]
+    own = next((o for o in inner if not _is_librarys(o.f_code.co_filename)), inner[-1])
+    return f"{guard._name} ({spot(own.f_code.co_filename, own.f_lineno, guard._file)})"
+
+
+def call_in(frame: FrameType | None) -> tuple[FrameType | None, list[FrameType]]:
+    """The call of a student's function that a thread is in, and the frames within it; None where it is in none.
+
+    ``frame``: the innermost of the thread
+    """
     inner: list[FrameType] = []
     while frame is not None:
         if frame.f_code is Guard.__call__.__code__ and inner:
-            guard = frame.f_locals["self"]
-            own = next((o for o in inner if not _is_librarys(o.f_code.co_filename)), inner[-1])
-            place = spot(own.f_code.co_filename, own.f_lineno, guard._file)
-            return f"{guard._name} ({place})"
+            return frame, inner
         inner.append(frame)
         frame = frame.f_back
-    return ""
+    return None, inner
 
 
 def _is_librarys(file: str) -> bool:

@@ -6,6 +6,7 @@ name tells, a notebook holds the modules whose functions it defines.
 
 from __future__ import annotations
 
+import json
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,6 +22,7 @@ from course.engine.functions.notebook.reading import (
     NotebookError,
     modules_defined,
     read_notebook,
+    with_counts,
 )
 
 if TYPE_CHECKING:
@@ -94,8 +96,11 @@ def _others(folder: Path) -> Iterator[Path]:
 
 
 def named(folder: Path, module: str) -> Path:
-    """The file that a message tells of where a module is missing."""
-    return folder if folder.is_file() else folder / f"{module}.py"
+    """The file that a message tells of where a module is missing: a notebook where there is no program, but some."""
+    if folder.is_file():
+        return folder
+    notebooks = any(folder.glob(f"*{NOTEBOOK}")) and not any(folder.glob("*.py"))
+    return folder / f"{module}{NOTEBOOK if notebooks else '.py'}"
 
 
 def holds(path: Path) -> tuple[str, ...]:
@@ -159,7 +164,25 @@ def place_in(path: Path, module: str, line: int) -> Place:
 def told_place(path: Path | str, place: Place) -> str:
     """A place as a message has it: as editors know it in a program, by the cell's number in a notebook."""
     cell, line = place
-    return f"{path}, cell {cell}, line {line}" if cell else f"{path}:{line}"
+    return f"{path}, {cell_name(Path(path), cell)}, line {line}" if cell else f"{path}:{line}"
+
+
+def cell_name(path: Path, cell: int) -> str:
+    """A cell as a message has it: where it stands, texts among the others, and the number that Jupyter shows."""
+    told = path.stat() if path.is_file() else None
+    counts = _counts(path, told.st_mtime_ns, told.st_size) if told else {}
+    return with_counts(f"cell {cell}", counts)
+
+
+@lru_cache(maxsize=2 * len(COURSE))
+def _counts(path: Path, _saved: int, _size: int) -> dict[int, int]:
+    # IPython takes a fifth of a second to import.
+    from course.engine.functions.notebook.cells import NO_NOTEBOOK, counts_of
+
+    try:
+        return counts_of(json.loads(_content(path)))
+    except (*NO_NOTEBOOK, NotebookError):
+        return {}
 
 
 def code_name(path: Path, cell: int) -> str:
@@ -174,8 +197,11 @@ def spot(name: str, line: int, file: Path) -> str:
     """
     if cell := _live(name):
         return f"{cell}, line {line}"
-    _, mark, number = name.rpartition(_MARK)
-    return told_place(file, (int(number) if mark else 0, line))
+    stem, mark, number = name.rpartition(_MARK)
+    if not mark:
+        return told_place(file, (0, line))
+    # What was imported has its whole path, however the file is called here.
+    return f"{file}, {cell_name(Path(f'{stem}{NOTEBOOK}'), int(number))}, line {line}"
 
 
 def _live(name: str) -> str:

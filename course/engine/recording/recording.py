@@ -206,9 +206,7 @@ def recordable(scene: Scene) -> Scene:
 def _settings(
     scene: Scene, spp: int | None, size: tuple[int, int] | None, seed: int | None
 ) -> SceneSettings:
-    width, height = size or (None, None)
-    given = {"samples": spp, "width": width, "height": height, "seed": seed}
-    return chosen_settings(scene.settings, False, **given)
+    return chosen_settings(scene.settings, False, size, samples=spp, seed=seed)
 
 
 def _check(areas: Sequence[Tile], settings: SceneSettings) -> None:
@@ -218,6 +216,13 @@ def _check(areas: Sequence[Tile], settings: SceneSettings) -> None:
             " samples of its own to record"
         )
     for area in areas:
+        for number in (area.x, area.y, area.width, area.height):
+            # Of NumPy's as well.
+            if not hasattr(number, "__index__"):
+                raise CourseError(
+                    f"pixel {area.x},{area.y}: {number!r} is no whole number; pixels are counted from 0, from "
+                    "the upper left corner"
+                )
         if not (
             area.width > 0 <= area.x <= settings.width - area.width
             and area.height > 0 <= area.y <= settings.height - area.height

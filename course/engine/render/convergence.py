@@ -13,7 +13,7 @@ from time import monotonic
 from course.base.errors import CourseError
 from course.engine.render.adaptive.rounds import ADAPTABLE
 from course.engine.render.render import render
-from course.engine.scene.scene import Scene
+from course.engine.scene.scene import Scene, check_scene
 
 WIDTH = 160
 """Columns of the pictures at most [pixels]: an error is a mean over thousands of pixels."""
@@ -86,6 +86,7 @@ def error_over_time(
     seconds : for all pictures of a sampler
     samplers : see ``render``; the scene's own if none is given
     """
+    check_scene(scene, "error_over_time")
     settings = scene.settings
     fixed = settings.subdivision is not None or settings.denoise is not None
     names = samplers or (settings.sampler,)

@@ -6,9 +6,10 @@ import warnings
 from collections.abc import Sequence
 from threading import Thread
 from time import monotonic
+from types import FrameType
 
 from course.base.errors import CourseWarning
-from course.engine.functions.guard import asked_in
+from course.engine.functions.guard import asked_in, call_in
 
 PATIENCE = 1.0
 """Seconds in which what is at work ends by itself: a tile asks after each batch of rays."""
@@ -18,6 +19,53 @@ AGAIN = 0.2
 
 MOST = 10.0
 """Seconds until a thread is left to itself, as one that waits in a library written in C."""
+
+
+LONG_CALL = 5.0
+"""Seconds after which a function that is still in one call is told of; a slow right one answers within them."""
+
+
+class LongCalls:
+    """Tells of a student's function that doesn't come back: nobody can see which one a picture waits for.
+
+    Each function is told of once.
+    """
+
+    def __init__(self) -> None:
+        self._seen: dict[int, tuple[FrameType, float]] = {}
+        self._told: set[str] = set()
+        self._looked = monotonic()
+
+    def look(self, threads: Sequence[Thread], now: float) -> None:
+        """See where threads are, once in a second.
+
+        ``now``: [``time.monotonic()``]
+        """
+        if now - self._looked < PATIENCE:
+            return
+        self._looked = now
+        frames = sys._current_frames()
+        for number in [thread.ident or 0 for thread in threads]:
+            call, _ = call_in(frames.get(number))
+            known, since = self._seen.pop(number, (None, now))
+            if call is None:
+                continue
+            # A frame that is held is no other's later.
+            since = since if call is known else now
+            self._seen[number] = call, since
+            if now - since >= LONG_CALL and (said := asked_in(frames[number])):
+                self._tell(said)
+
+    def _tell(self, said: str) -> None:
+        function = said.partition(" ")[0]
+        if function not in self._told:
+            self._told.add(function)
+            warnings.warn(
+                f"still in {said}, in one call for {LONG_CALL:g} s: Ctrl-C ends it, in a notebook the button that "
+                "interrupts",
+                CourseWarning,
+                stacklevel=4,
+            )
 
 
 def end_endless(threads: Sequence[Thread]) -> None:

@@ -59,11 +59,30 @@ class Mode:
     final: str | None = None
 
 
-def chosen_settings(settings: SceneSettings, ends_early: bool, **given: Any) -> SceneSettings:
+_WHOLE = {"samples": "spp", "seed": "seed", "width": "size", "height": "size"}
+"""Settings that are whole numbers, and how `course.render` calls them."""
+
+
+def chosen_settings(
+    settings: SceneSettings, ends_early: bool, size: Any = None, **given: Any
+) -> SceneSettings:
     """The settings, with what was given and isn't None in their place; CourseError for what can't be.
 
-    ``ends_early``: something else than the number of samples is to end the render.
+    Parameters
+    ----------
+    ends_early : something else than the number of samples is to end the render
+    size : (width, height) [pixels]
     """
+    if size is not None:
+        if not isinstance(size, tuple | list) or len(size) != 2:
+            raise CourseError(
+                f"size={size!r}: expected (width, height) in pixels, such as (400, 267)"
+            )
+        given |= {"width": size[0], "height": size[1]}
+    for name, own in _WHOLE.items():
+        # Those of NumPy are such numbers, too.
+        if (value := given.get(name)) is not None and not hasattr(value, "__index__"):
+            raise CourseError(f"{own}: {value!r} is no whole number")
     chosen = replace(
         settings, **{name: value for name, value in given.items() if value is not None}
     )

@@ -104,7 +104,11 @@ class Picture:
         return picture_html(self)
 
 
-def _check_size(one: Picture, other: Picture) -> None:
+def _check_size(one: Picture, other: object) -> None:
+    if not isinstance(other, Picture):
+        raise CourseError(
+            f"a picture is compared with another that render has made, not {type(other).__name__}"
+        )
     sizes = [each.film.samples.shape for each in (one, other)]
     if sizes[0] != sizes[1]:
         (h, w), (height, width) = sizes

@@ -30,7 +30,7 @@ from course.engine.render.which_loops import (
     read_first,
     wants_compiled,
 )
-from course.engine.scene.scene import Denoising, Scene, SceneSettings
+from course.engine.scene.scene import Denoising, Scene, SceneSettings, check_scene
 
 
 def render(
@@ -85,8 +85,9 @@ def render(
     SceneError, EffectError, OutputError
         For settings that don't fit together, functions that are not written yet, and pictures larger than memory.
     CourseError
-        For a cluster that can't be reached or is lost.
+        For what is no scene; and for a cluster that can't be reached or is lost.
     """
+    check_scene(scene, "render")
     since = monotonic() if since is None else since
     keep_freed_memory()
     settings = _asked(
@@ -149,13 +150,11 @@ def _asked(
     ends_early: bool,
 ) -> SceneSettings:
     """The settings of a render; what isn't given is as the scene says. See ``render``."""
-    width, height = size or (None, None)
     settings = chosen_settings(
         settings,
         ends_early or error is not None,
+        size,
         samples=spp,
-        width=width,
-        height=height,
         sampler=sampler,
         seed=seed,
         error=error,

@@ -17,7 +17,7 @@ from course.engine.core.schedule import Executor, Tick
 from course.engine.core.tiles import Work
 from course.engine.core.tracer import Tracer
 from course.engine.core.types import Floats32
-from course.engine.render.endless import end_endless
+from course.engine.render.endless import LongCalls, end_endless
 
 TICK = 0.05
 """Seconds between two checks of progress and Ctrl-C in the main thread."""
@@ -103,8 +103,10 @@ class ThreadedExecutor(Executor):
         try:
             for thread in threads:
                 thread.start()
+            long_calls = LongCalls()
             while not run.finished.wait(TICK):
                 tick(run.film.done, run.film.done_first)
+                long_calls.look(threads, monotonic())
         except KeyboardInterrupt:
             self.interrupted = True
         finally:

@@ -5,7 +5,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from course.base.errors import EffectError
+from course.base.errors import CourseError, EffectError, SceneError
+from course.base.inputs import shown
 from course.engine.core import scene as core
 from course.engine.formats.pictures.display import SRGB, Display
 from course.engine.formats.yaml.description import DenoiseDescription, SubdivisionDescription
@@ -13,6 +14,7 @@ from course.engine.formats.yaml.loading import Loaded, load_description
 from course.engine.formats.yaml.overriding import Overrides
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.functions.given import Given, GivenEffects
+from course.engine.functions.modules import meant
 from course.engine.scene.building.world import Compiled, compile_scene
 
 Subdivision = SubdivisionDescription
@@ -135,16 +137,46 @@ def load_variant(
     return Scene(loaded, compile_scene(loaded, bound), bound)
 
 
+def check_scene(scene: object, function: str) -> None:
+    """Raise CourseError for what is no loaded scene.
+
+    ``function``: that was handed it
+    """
+    if isinstance(scene, Scene):
+        return
+    if isinstance(scene, str | Path):
+        how = f"{function}(load_scene({str(scene)!r}))"
+        raise CourseError(f"{function} takes a scene that is loaded, not its name: {how}")
+    raise CourseError(
+        f"{function} takes a scene, as load_scene gives it, not {type(scene).__name__}"
+    )
+
+
 def scene_file(given: str | Path) -> Path:
-    """The file that is meant: itself, or the course's scene of that name, as one's own folder has it or the project."""
+    """The file that is meant: itself, or the course's scene of that name, as one's own folder has it or the project.
+
+    Raises SceneError: it is a name, and no scene has it.
+    """
     path = Path(given)
     # A name that is too long for a file isn't there either.
     if path.suffix or path.is_absolute() or os.path.exists(path):  # noqa: PTH110
         return path
-    name = Path("scenes", f"{path}.yaml")
     # A notebook is run in the folder assignments.
-    tried = (name, Path("..") / name if Path.cwd().name == "assignments" else name, PROJECT / name)
-    return next((one for one in tried if os.path.isfile(one)), path)  # noqa: PTH113
+    above = Path("..") if Path.cwd().name == "assignments" else Path()
+    folders = [folder / "scenes" for folder in (Path(), above, PROJECT)]
+    tried = (folder / f"{path}.yaml" for folder in folders)
+    if (found := next((one for one in tried if os.path.isfile(one)), None)) is not None:  # noqa: PTH113
+        return found
+    names = {
+        one.relative_to(folder).with_suffix("").as_posix()
+        for folder in folders
+        for one in (*folder.glob("*.yaml"), *folder.glob("before/*.yaml"))
+    }
+    near = meant(str(given), sorted(names))
+    raise SceneError(
+        f"{shown(path)}: no such file, and the course has no scene of that name"
+        + (f"; did you mean {near}?" if near else "; scenes/README.md lists its scenes")
+    )
 
 
 def effects_of(given: str | Path | Effects | Given | None) -> Effects:

@@ -6,7 +6,7 @@ submissions show both.
 """
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from time import perf_counter
@@ -14,7 +14,7 @@ from time import perf_counter
 import numpy as np
 
 from course.base.errors import CourseError
-from course.engine.functions.modules import COURSE
+from course.engine.functions.modules import COURSE, meant
 from course.school.grading.checks.check import Check, ModuleChecks, Role, Trial
 from course.school.grading.checks.conventions import conventions
 from course.school.grading.checks.declare import Function, Law, declarations
@@ -43,6 +43,21 @@ def module_checks(module: str) -> ModuleChecks:
         prints={function.name: prints(module, function) for function in declared},
         named={function.name: partial(mistake_of, function) for function in declared},
     )
+
+
+def meant_check(only: str, modules: Iterable[str]) -> str:
+    """Which function or check may be meant by what was asked for and isn't one; empty where none is alike.
+
+    ``only``: FUNCTION or FUNCTION/CHECK
+    """
+    checks = [check for module in modules for check in module_checks(module).checks]
+    names = {check.function for check in checks}
+    function, _, name = only.partition("/")
+    if function in names:
+        near = meant(name, [check.name for check in checks if check.function == function])
+        return f"; did you mean {function}/{near}?" if near else ""
+    near = meant(function, names)
+    return f"; did you mean {near}?" if near else ""
 
 
 def with_whole(modules: Sequence[str]) -> tuple[str, ...]:

@@ -6,7 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from course.engine.functions.notebook.needed import Place
-from course.engine.functions.sources import is_notebook, place_in, program_of, told_place
+from course.engine.functions.sources import (
+    cell_name,
+    is_notebook,
+    place_in,
+    program_of,
+    told_place,
+)
 from course.school.grading.checks.result import Result
 
 
@@ -16,15 +22,21 @@ def place_of(path: Path, module: str, function: str) -> Place:
         rows = program_of(path, module).decode("utf-8", "replace").split("\n")
     except OSError:
         return 0, 1
-    begins = f"def {function}("
-    # The last definition of a name is the one that counts.
-    lines = [number for number, row in enumerate(rows, start=1) if row.startswith(begins)]
-    return place_in(path, module, lines[-1] if lines else 1)
+    return place_in(path, module, _line_of(rows, function) or 1)
 
 
 def told_of(path: Path, module: str, function: str) -> str:
-    """The same as a message has it."""
+    """The same as a message has it; the notebook alone where none of its cells has the function."""
+    if is_notebook(path) and not _line_of(program_of(path, module).decode().split("\n"), function):
+        return str(path)
     return told_place(path, place_of(path, module, function))
+
+
+def _line_of(rows: list[str], function: str) -> int:
+    """The line that begins a function, by ``def`` or as a value; 0 where there is none."""
+    begins = re.compile(rf"def {function}\(|{function}\s*=(?!=)")
+    # The last definition of a name is the one that counts.
+    return max((number for number, row in enumerate(rows, 1) if begins.match(row)), default=0)
 
 
 def located(result: Result, path: Path) -> Result:
@@ -35,16 +47,20 @@ def located(result: Result, path: Path) -> Result:
     def there(line: int) -> str:
         cell, own = place_in(path, result.module, line)
         file = f'File "{path.name}"'
-        return f"{file}, cell {cell}, line {own}" if cell else f"{file}, line {own}"
+        return f"{file}, {cell_name(path, cell)}, line {own}" if cell else f"{file}, line {own}"
 
-    return moved(result, there)
+    return moved(result, there, path.name)
 
 
-def moved(result: Result, there: Callable[[int], str]) -> Result:
-    """A result that tells where the lines of its module stand elsewhere."""
+def moved(result: Result, there: Callable[[int], str], name: str) -> Result:
+    """A result that tells where the lines of its module stand elsewhere.
+
+    ``name``: what is said in the place of the program's
+    """
 
     def told(text: str) -> str:
         pattern = rf'File "{result.module}\.py", line (\d+)'
-        return re.sub(pattern, lambda found: there(int(found[1])), text)
+        text = re.sub(pattern, lambda found: there(int(found[1])), text)
+        return re.sub(rf'(?<![\w/"]){result.module}\.py\b', lambda _: name, text)
 
     return replace(result, where=told(result.where), found=told(result.found))

@@ -16,8 +16,10 @@ from course.base.version import __version__
 from course.engine.functions.effects import PACKAGE
 from course.engine.functions.modules import COURSE, WARM_UP
 from course.engine.functions.sources import named, told_place
+from course.school.grading.catalog import module_checks, with_whole
 from course.school.grading.checks.check import Check
 from course.school.grading.grading import grade
+from course.school.grading.pictures.whole import ALL, NAME
 from course.school.grading.places import place_of
 from course.school.grading.references import references
 from course.school.grading.report import FunctionResults, docs_page, findings, grouped, reproduce
@@ -67,6 +69,8 @@ def progress(
     folder: Path,
     modules: Iterable[str] = tuple(COURSE),
     before: Callable[[str], None] = lambda _module: None,
+    *,
+    together: bool = False,
 ) -> Iterator[list[FunctionProgress]]:
     """The functions of one module after the other.
 
@@ -76,20 +80,23 @@ def progress(
     ----------
     folder : of the modules' files, or a notebook
     before : called with the name of each module that has to be checked
+    together : whether after all core modules the picture follows that takes their functions together, as in a report
     """
     remembered = _remembered(folder)
     kept = _read(remembered)
-    for module in modules:
-        paths = find_modules(folder, (module,))
+    for module in with_whole(tuple(modules)) if together else modules:
+        needed = ALL if module == NAME else (module,)
+        paths = find_modules(folder, needed)
         sources = read_found(folder, paths)
-        key = _key(sources.get(module))
+        key = _key(*map(sources.get, needed))
         known = kept.get(module, {})
         if known.get("key") != key:
             before(module)
             known = {"key": key, "functions": _checked(folder, module, sources, paths)}
             kept = _read(remembered) | {module: known}
             _write(remembered, kept)
-        yield _placed(known["functions"], paths.get(module, named(folder, module)))
+        file = folder if module == NAME else paths.get(module, named(folder, module))
+        yield _placed(known["functions"], file)
 
 
 def some_of(folder: Path, module: str, names: Collection[str]) -> list[FunctionProgress]:
@@ -125,10 +132,13 @@ def _checked(
     files: dict[str, Path],
     only: Callable[[Check], bool] | None = None,
 ) -> list[dict[str, Any]]:
+    modules: tuple[str, ...] = (module,)
+    if module == NAME:
+        modules, only = ALL, module_checks(NAME).checks.__contains__
     report = grade(
         sources,
         references(),
-        modules=(module,),
+        modules=modules,
         shut_in=plain(),
         only=only,
         folder=folder,
@@ -138,8 +148,11 @@ def _checked(
 
 
 def _placed(functions: list[dict[str, Any]], path: Path) -> list[FunctionProgress]:
-    """With the file and the lines where they begin."""
-    places = [place_of(path, one["module"], one["name"]) for one in functions]
+    """With the file and the lines where they begin; the picture of all modules has a folder alone."""
+    places = [
+        (0, 1) if one["module"] == NAME else place_of(path, one["module"], one["name"])
+        for one in functions
+    ]
     return [
         FunctionProgress(**function, file=str(path), line=line, cell=cell)
         for function, (cell, line) in zip(functions, places, strict=True)
@@ -177,8 +190,9 @@ def _remembered(folder: Path) -> Path:
     return (folder.parent if folder.is_file() else folder) / KEPT
 
 
-def _key(source: bytes | None) -> str:
-    return hashlib.sha256(b"missing" if source is None else source).hexdigest()
+def _key(*sources: bytes | None) -> str:
+    texts = [b"missing" if source is None else source for source in sources]
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
 @cache

@@ -17,14 +17,15 @@ from IPython.core.magic_arguments import MagicArgumentParser
 from course.base.errors import CourseWarning
 from course.base.progress import quiet
 from course.engine.functions.modules import COURSE, meant
+from course.school.grading.catalog import meant_check
 from course.school.grading.checks.check import Check
 from course.school.grading.grading import grade
 from course.school.grading.places import moved
 from course.school.grading.references import has_references, references
 from course.school.grading.report import USUAL_SEED
-from course.school.grading.reports.printing import Printer
+from course.school.grading.reports.printing import Printer, order_in
 from course.school.grading.worker.sandbox import plain
-from course.school.notebooks.session import MODULE_OF, Mine, Session, functions_in
+from course.school.notebooks.session import MODULE_OF, Mine, Session, bound_in, functions_in
 
 HINTS = ("1", "2", "3")
 
@@ -65,19 +66,31 @@ class Magics:
             )
         defined = frozenset[str]()
         if cell is not None:
-            # Below a blank line, its lines keep their numbers.
-            if not self.shell.run_cell(f"\n{cell}").success:
+            if not self._run(cell):
                 return
             defined = functions_in(cell)
         modules = [module] if module else sorted({MODULE_OF[name] for name in defined}, key=_order)
         if not modules:
             raise UsageError("%check: names no module, and the cell defines no function of one")
+        if cell is not None:
+            _tell_of_slips(cell, defined, modules)
         try:
             for one in modules:
                 own = defined & {*COURSE[one]} if cell is not None else {*COURSE[one]}
                 self._check(one, own, only, int(asked.hint))
         except KeyboardInterrupt:
             click.echo("interrupted")
+
+    def _run(self, cell: str) -> bool:
+        """Run what stands below the magic, with its number and lines as the notebook shows them."""
+        before, number = self.shell.execution_count, self.session.number
+        self.shell.execution_count = number or before
+        try:
+            # IPython cuts blank lines off the top; what is below another magic can't have a line above it.
+            top = "" if cell.lstrip().startswith("%%") else "#\n"
+            return bool(self.shell.run_cell(f"{top}{cell}").success)
+        finally:
+            self.shell.execution_count = before
 
     def _check(
         self, module: str, functions: frozenset[str] | set[str], only: str | None, rungs: int
@@ -91,21 +104,34 @@ class Magics:
             click.echo(
                 f"no cell that was run defines {', '.join(found.lacking)}: run the cells above first"
             )
-        printer = Printer(lambda _module, _function: "", None, rungs, "%check")
+        for name, cells in found.rebound:
+            listed = ", ".join(f"In[{cell}]" for cell in cells[:-1])
+            click.echo(
+                f"cell In[{cells[-1]}] binds {name}, as {listed} did before: it was run last and counts here; in the "
+                "saved notebook, which is graded, the lowest of these cells counts: keep one of them"
+            )
+        printer = Printer(
+            lambda _module, _function: "",
+            None,
+            rungs,
+            "%check",
+            slips=lambda result: order_in(found.text, result),
+        )
         with quiet():
             report = grade(
                 {module: found.text},
                 references(USUAL_SEED),
                 modules=(module,),
                 only=_chosen(functions, only),
-                each=lambda result: printer.result(moved(result, found.place)),
+                each=lambda result: printer.result(moved(result, found.place, "this notebook")),
                 # One's own code needs no walls, and starts sooner without.
                 shut_in=plain(),
             )
         if report.results:
             printer.end(report)
         else:
-            click.echo(f"--only {only}: no check of these functions has that name")
+            near = meant_check(only or "", [module])
+            click.echo(f"--only {only}: no check of these functions has that name{near}")
 
     def course(self, line: str) -> None:
         """Run a command of the course, as in a terminal: `%course status`."""
@@ -119,6 +145,14 @@ class Magics:
             except KeyboardInterrupt:
                 process.terminate()
                 click.echo("interrupted")
+
+
+def _tell_of_slips(cell: str, defined: frozenset[str], modules: list[str]) -> None:
+    """Say which function of the modules may be meant by a name of the cell that isn't one."""
+    others = [name for one in modules for name in COURSE[one] if name not in defined]
+    for name in sorted(bound_in(cell) - defined):
+        if near := meant(name, others):
+            click.echo(f"{name} is no function of {', '.join(modules)}; did you mean {near}?")
 
 
 def _order(module: str) -> int:

@@ -12,7 +12,7 @@ from course.engine.functions.effects import written_in
 from course.engine.functions.modules import COURSE
 from course.engine.functions.notebook.name_effects import is_builtin, scopes
 from course.engine.functions.notebook.needed import Place
-from course.engine.functions.notebook.reading import Notebook, converted
+from course.engine.functions.notebook.reading import gathered
 
 MODULE_OF = {name: module for module, names in COURSE.items() for name in names}
 """Of each function; no two have one name."""
@@ -50,11 +50,13 @@ class SessionModule:
     text : as a program; empty where none of its functions is defined
     places : number of the cell, and line in it, for each line of the text
     lacking : names that it uses and no cell defines
+    rebound : names that it uses and several cells bind, with the numbers of these; the last one counts
     """
 
     text: bytes
     places: tuple[Place, ...]
     lacking: tuple[str, ...]
+    rebound: tuple[tuple[str, tuple[int, ...]], ...] = ()
 
     def place(self, line: int) -> str:
         """A line of the text, as a message has it."""
@@ -83,6 +85,11 @@ class Session:
         shell.events.register("pre_run_cell", self._begun)
         shell.events.register("post_run_cell", self._ended)
 
+    @property
+    def number(self) -> int:
+        """Of the cell that was begun last; 0 before any."""
+        return self.cells[-1].number if self.cells else 0
+
     def close(self) -> None:
         """Listen no longer."""
         self._shell.events.unregister("pre_run_cell", self._begun)
@@ -92,7 +99,9 @@ class Session:
         if not info.store_history or info.silent:
             return
         key = getattr(info, "cell_id", None)
-        cell = RunCell(self._shell.execution_count, key, info.raw_cell)
+        # Before or after this event, as its version has it, IPython counts; what it keeps of a cell comes later in all.
+        number = len(self._shell.history_manager.input_hist_raw)
+        cell = RunCell(number, key, info.raw_cell)
         own = cell.names
         # Without a key, a cell is the same as one before if it defines what the other did, or what that failed to do.
         self.cells = [
@@ -112,15 +121,21 @@ class Session:
 
     def module(self, module: str) -> SessionModule:
         """What the cells make of a module, as it would be graded if the notebook had them in this order."""
+        # Imported late, with IPython.
+        from course.engine.functions.notebook.cells import read_cells
+
         cells = [{"cell_type": "code", "source": cell.text} for cell in self.cells]
-        made = converted((json.dumps({"cells": cells}).encode(), (module,)))
-        if not isinstance(made, Notebook) or module not in made.sources:
+        code = read_cells(json.dumps({"cells": cells}).encode())
+        for one in code.statements:
+            one.cell = self.cells[one.cell - 1].number
+        made = gathered(code, (module,))
+        if module not in made.sources:
             return SessionModule(b"", (), ())
         text = made.sources[module]
-        places = tuple((self.cells[cell - 1].number, line) for cell, line in made.places[module])
         binds, reads, _ = scopes(text.decode())
         lacking = sorted(n for n in reads - binds if not is_builtin(n) and not n.startswith("__"))
-        return SessionModule(text, places, tuple(lacking))
+        rebound = tuple((name, tuple(cell for cell, _ in of)) for name, of in made.rebound[module])
+        return SessionModule(text, tuple(made.places[module]), tuple(lacking), rebound)
 
 
 def functions_in(text: str) -> frozenset[str]:

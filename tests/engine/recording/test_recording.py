@@ -280,6 +280,8 @@ def test_what_cannot_be_recorded_is_told(make_scene: MakeScene) -> None:
     for x, y in ((32, 0), (0, 32), (-1, 0)):
         with pytest.raises(CourseError, match=r"outside the picture: expected x from 0 to 31"):
             record(scene, x, y)
+    with pytest.raises(CourseError, match=r"pixel 1\.5,2: 1\.5 is no whole number"):
+        record(scene, 1.5, 2)  # type: ignore[arg-type]
     with pytest.raises(CourseError, match=r"65,536 samples are too many.*--spp"):
         record(scene, 0, 0, 32, 32, spp=64)
     with pytest.raises(CourseError, match=r"film\.subdivision"):

@@ -1,13 +1,19 @@
 """Ctrl-C: the picture so far comes back."""
 
 import signal
+import warnings
+from contextlib import suppress
 from pathlib import Path
+from threading import Event, Thread
+from time import monotonic
 
 import numpy as np
 import pytest
 
 from course import EffectError, render
-from course.base.errors import CourseError
+from course.base.errors import CourseError, FunctionError
+from course.engine.functions.guard import Guard
+from course.engine.render.endless import LongCalls
 from tests.engine.conftest import EveryStage
 
 
@@ -32,6 +38,34 @@ def test_every_pixel_of_an_interrupted_picture_is_right_for_its_samples(
         assert np.array_equal(picture.linear[these], whole.linear[these])
     with pytest.raises(CourseError, match="complete"):
         render(scene, spp=8192, start=picture)
+
+
+def test_a_function_that_does_not_come_back_is_told_while_one_waits() -> None:
+    begun, over = Event(), Event()
+
+    def resolve(*_: object) -> None:
+        begun.set()
+        over.wait()
+
+    guard = Guard("supersampling.resolve", resolve, Path("supersampling.py"))
+
+    def work() -> None:
+        with suppress(FunctionError):
+            guard(np.zeros((3, 2, 1), np.float32), np.ones(2, np.float32))
+
+    thread = Thread(target=work, daemon=True)
+    thread.start()
+    begun.wait()
+    calls, now = LongCalls(), monotonic()
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        for second in (2, 4, 6, 8, 9, 30):
+            calls.look([thread], now + second)
+            # The first look is at 2.
+            assert len(told) == (second >= 8)
+    assert "still in supersampling.resolve (supersampling.py:" in str(told[0].message)
+    over.set()
+    thread.join()
 
 
 def test_an_error_in_a_thread_reaches_the_caller(every_stage: EveryStage, tmp_path: Path) -> None:

@@ -1,12 +1,13 @@
 """The heart of rendering: film, schedule and executor are handed to it, and it knows none of their kinds."""
 
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import CourseError, render
+from course import CourseError, error_over_time, load_scene, render
 from course.engine.core.film import Film
 from course.engine.core.schedule import Run, Schedule
 from course.engine.core.schedule import render as render_film
@@ -94,3 +95,47 @@ def test_the_clock_tells_the_share_where_it_is_further_and_of_work_without_end()
 def test_an_error_of_zero_can_not_be_reached(make_scene: MakeScene, error: float) -> None:
     with pytest.raises(CourseError, match="expected a finite radiance > 0"):
         render(make_scene(), error=error, spp=64)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"spp": 1.5}, "spp: 1.5 is no whole number"),
+        ({"seed": "7"}, "seed: '7' is no whole number"),
+        ({"size": 30}, r"size=30: expected \(width, height\)"),
+        ({"size": "30x20"}, r"size='30x20': expected \(width, height\)"),
+        ({"size": (30.0, 20)}, "size: 30.0 is no whole number"),
+    ],
+)
+def test_settings_of_another_kind_are_told(
+    make_scene: MakeScene, given: dict[str, Any], told: str
+) -> None:
+    with pytest.raises(CourseError, match=told):
+        render(make_scene(), **given)
+
+
+def test_whole_numbers_may_be_numpys(make_scene: MakeScene) -> None:
+    picture = render(make_scene(), spp=np.int64(1), size=(np.int32(4), 3))  # type: ignore[arg-type]
+    assert picture.linear.shape == (3, 4, 3)
+
+
+def test_what_is_no_scene_and_no_picture_is_told(make_scene: MakeScene) -> None:
+    with pytest.raises(CourseError, match=r"render\(load_scene\('soft_shadows'\)\)"):
+        render("soft_shadows")  # type: ignore[arg-type]
+    with pytest.raises(CourseError, match="not NoneType"):
+        error_over_time(None)  # type: ignore[arg-type]
+    with pytest.raises(CourseError, match="not int"):
+        render(make_scene(), spp=1, size=(4, 3)).compare(3)  # type: ignore[arg-type]
+
+
+def test_a_scene_that_may_be_meant_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "assignments").mkdir()
+    (tmp_path / "scenes").mkdir()
+    (tmp_path / "scenes" / "soft_shadows.yaml").touch()
+    monkeypatch.chdir(tmp_path / "assignments")
+    with pytest.raises(CourseError, match="did you mean before/soft_shadows"):
+        load_scene("before/soft_shadow", "solutions")
+    with pytest.raises(CourseError, match="no scene of that name; scenes/README"):
+        load_scene("xyz", "solutions")
+    with pytest.raises(CourseError, match=r"did you mean .*scenes/soft_shadows\.yaml\?"):
+        load_scene("soft_shadow.yaml", "solutions")

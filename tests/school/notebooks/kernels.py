@@ -21,12 +21,14 @@ class Outputs:
     shown : bundles by kind, as a notebook keeps them
     error : of Python, in a line
     trace : lines of the traceback that is shown
+    number : that the notebook shows beside the cell
     """
 
     text: str = ""
     shown: list[dict[str, str]] = field(default_factory=list)
     error: str = ""
     trace: list[str] = field(default_factory=list)
+    number: int = 0
 
 
 class Kernel:
@@ -76,7 +78,9 @@ class Kernel:
     @staticmethod
     def _take(kind: str, told: dict[str, Any], found: Outputs, ids: dict[str, int]) -> bool:
         """Add a message; whether it was the last one."""
-        if kind == "stream":
+        if kind == "execute_input":
+            found.number = told["execution_count"]
+        elif kind == "stream":
             found.text += re.sub(r"\x1b\[[0-9;]*m", "", told["text"])
         elif kind in ("display_data", "execute_result"):
             if name := told.get("transient", {}).get("display_id"):

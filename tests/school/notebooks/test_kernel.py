@@ -65,14 +65,43 @@ def test_only_the_functions_of_the_cell_are_checked(shared: Kernel) -> None:
 
 def test_hints_by_rungs_and_places_by_cells(shared: Kernel) -> None:
     wrong = "\ndef displacement(velocity, time):\n    x = 2\n    return velocity[x + 7]\n"
-    first = shared.run(f"%%check motion_blur{wrong}").text
+    shown = shared.run(f"%%check motion_blur{wrong}")
+    first = shown.text
     assert "wrong    displacement" in first
-    assert re.search(r"cell In\[\d+\], line 4", first)
+    assert f"cell In[{shown.number}], line 4" in first
+    # As IPython knows it, which is told of a render.
+    told = shared.run(
+        "code = displacement.__code__\n"
+        "print(code.co_firstlineno, get_ipython().compile.format_code_name(code.co_filename)[1])"
+    )
+    assert told.text == f"2 In[{shown.number}]\n"
     assert "%check motion_blur --only displacement/" in first
     assert "--hint 2" in first
     assert "smallest" not in first
     twice = RIGHT.replace("* time", "* time * 2")
     assert "smallest" in shared.run(f"%%check motion_blur --hint 2{twice}").text
+
+
+def test_a_slip_in_a_name_is_told_with_what_may_be_meant(shared: Kernel) -> None:
+    shared.run(f"%%check motion_blur --only none{RIGHT}")
+    assert "mean displacement?" in shared.run("%check motion_blur --only displacment").text
+    asked = shared.run("%check motion_blur --only displacement/linaer").text
+    assert "did you mean displacement/linear?" in asked
+    cell = "%%check motion_blur\ndef displacemnt(velocity, time):\n    return velocity"
+    assert "displacemnt is no function of motion_blur; did you mean displ" in shared.run(cell).text
+
+
+def test_arguments_in_another_order_and_a_name_bound_twice_are_told(shared: Kernel) -> None:
+    cell = f"%%check motion_blur --only displacement/linear{RIGHT.replace('(velocity, time)', '(time, velocity)', 1)}"
+    found = shared.run(cell, "turned")
+    assert (
+        "order of the stub, displacement(velocity, time); yours are (time, velocity)" in found.text
+    )
+    shared.run("displacement = abs", "bound anew")
+    twice = shared.run("%check motion_blur --only displacement/linear").text
+    assert re.search(r"cell In\[\d+\] binds displacement, as In\[\d+\] did before", twice)
+    shared.run("'nothing'", "bound anew")
+    assert "binds" not in shared.run(f"%%check motion_blur --only none{RIGHT}", "turned").text
 
 
 def test_what_is_checked_is_what_the_cell_says_now(shared: Kernel) -> None:

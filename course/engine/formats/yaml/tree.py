@@ -336,11 +336,11 @@ def _elsewhere() -> str:
 
 
 def _near(path: Path) -> str:
-    """Which file may be meant: beside it, or in a folder `scenes` there."""
+    """Which file may be meant: beside it, or in a folder `scenes` there, or beside the folder where notebooks are."""
     if not path.parent.is_dir():
         return f"; its folder is missing too{_elsewhere()}"
     found: dict[str, Path] = {}
-    for folder in (path.parent, path.parent / "scenes"):
+    for folder in (path.parent, path.parent / "scenes", path.parent / ".." / "scenes"):
         # A folder that can't be read has nothing to tell.
         with suppress(OSError):
             for entry in sorted(folder.iterdir()):

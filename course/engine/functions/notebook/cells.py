@@ -80,11 +80,13 @@ class NotebookCode:
     statements : in the order of the cells
     files : name -> text of each file that a cell writes
     told : what was left out although it may have defined something
+    counts : cell -> the number beside it that Jupyter shows, as in In[5], where the notebook keeps one
     """
 
     statements: list[Statement] = field(default_factory=list)
     files: dict[str, str] = field(default_factory=dict)
     told: list[str] = field(default_factory=list)
+    counts: dict[int, int] = field(default_factory=dict)
 
     def tell(self, cell: int, line: int, why: str) -> None:
         """Add what was left out, and why."""
@@ -97,17 +99,27 @@ def read_cells(content: bytes) -> NotebookCode:
     language = notebook.get("metadata", {}).get("kernelspec", {}).get("language", "python")
     if str(language).lower() not in ("python", "python3"):
         raise ValueError(f"its language is {language}")
-    found = NotebookCode()
+    found = NotebookCode(counts=counts_of(notebook))
     for number, source in _sources(notebook):
         _read(source.replace("\r\n", "\n").replace("\r", "\n"), number, 0, found)
     return found
 
 
-def _sources(notebook: dict[str, Any]) -> Iterator[tuple[int, str]]:
-    """Number and text of each cell of code."""
+def counts_of(notebook: dict[str, Any]) -> dict[int, int]:
+    """Of the cells that have been run, by their place, the numbers that Jupyter shows."""
+    counts = {number: cell.get("execution_count") for number, cell in _numbered(notebook)}
+    return {number: count for number, count in counts.items() if type(count) is int}
+
+
+def _numbered(notebook: dict[str, Any]) -> Iterator[tuple[int, dict[str, Any]]]:
     # Before format 4 cells lay on sheets, and their text was called input.
     sheets = notebook.get("worksheets", [notebook])
-    for number, cell in enumerate((cell for sheet in sheets for cell in sheet["cells"]), 1):
+    return enumerate((cell for sheet in sheets for cell in sheet["cells"]), 1)
+
+
+def _sources(notebook: dict[str, Any]) -> Iterator[tuple[int, str]]:
+    """Number and text of each cell of code."""
+    for number, cell in _numbered(notebook):
         if cell["cell_type"] == "code":
             source = cell["source"] if "source" in cell else cell["input"]
             yield number, source if isinstance(source, str) else "".join(source)

@@ -93,6 +93,7 @@ class Code:
             .difference(*(use.binds for use in self.uses if not use.defines_function))
         )
         self.needed, self.may = set[str](), set[str]()
+        self.asked = frozenset[str]()
 
     def module(self, functions: Iterable[str]) -> tuple[str, list[Place], list[Statement]]:
         """The text of what some functions need, where its lines stand, and statements that do something and are left.
@@ -100,6 +101,7 @@ class Code:
         The text is empty where none of the functions is defined.
         """
         self.needed, self.may = {*functions} & self.bound, set()
+        self.asked = frozenset(self.needed)
         if not self.needed:
             return "", [], []
         for use in self.uses:
@@ -116,6 +118,22 @@ class Code:
             texts.append(_text(use))
             places += _places(use, texts[-1])
         return "\n\n".join(texts), places, left
+
+    def rebound(self) -> list[tuple[str, list[Place]]]:
+        """Of the module that was taken last: needed names that several cells bind, with where; its functions first.
+
+        A cell that says what another says, as the same import does, is no other binding.
+        """
+        bound: dict[str, dict[int, _Use]] = {}
+        for use in self.uses:
+            # Of a cell its last binding, which is the one that those below it have.
+            for name in use.binds & self.needed if use.kept else ():
+                bound.setdefault(name, {})[use.statement.cell] = use
+        return [
+            (name, [(cell, use.statement.line) for cell, use in uses.items()])
+            for name, uses in sorted(bound.items(), key=lambda of: (of[0] not in self.asked, of[0]))
+            if len({use.statement.text for use in uses.values()}) > 1
+        ]
 
     def _choose(self) -> None:
         """Mark what is kept."""

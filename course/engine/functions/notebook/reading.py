@@ -7,8 +7,8 @@ is run here, its text is taken apart: but that can be made to take long, so it i
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,7 @@ from course.base.errors import CourseError
 from course.engine.functions.modules import COURSE
 
 if TYPE_CHECKING:
-    from course.engine.functions.notebook.cells import Statement
+    from course.engine.functions.notebook.cells import NotebookCode, Statement
     from course.engine.functions.notebook.needed import Place
 
 LARGEST_FILE = 2_000_000
@@ -45,12 +45,14 @@ class Notebook:
     files : module -> its text, as a cell writes it into a file of the module's name
     told : what was left out of the cells
     places : module -> where each line of its text stands: cell, and line in it
+    rebound : module -> names that it needs and several cells bind, with where they do; the last one counts
     """
 
     sources: dict[str, bytes] = field(default_factory=dict)
     files: dict[str, bytes] = field(default_factory=dict)
     told: tuple[str, ...] = ()
     places: dict[str, list[Place]] = field(default_factory=dict)
+    rebound: dict[str, list[tuple[str, list[Place]]]] = field(default_factory=dict)
 
 
 class NotebookError(CourseError):
@@ -70,15 +72,22 @@ def read_notebook(name: str, content: bytes, modules: Iterable[str]) -> Notebook
 
 def converted(work: tuple[bytes, tuple[str, ...]]) -> Notebook | str:
     """The notebook, or why it is none."""
-    # IPython takes a fifth of a second to import.
     from course.engine.functions.notebook.cells import NO_NOTEBOOK, read_cells
-    from course.engine.functions.notebook.needed import Code
 
     content, modules = work
     try:
         cells = read_cells(content)
     except NO_NOTEBOOK as error:
         return str(error)[:80] if isinstance(error, ValueError) else "it has no cells"
+    found = gathered(cells, modules)
+    return replace(found, told=tuple(with_counts(told, cells.counts) for told in found.told))
+
+
+def gathered(cells: NotebookCode, modules: Iterable[str]) -> Notebook:
+    """Some modules, of what was read from cells."""
+    # IPython takes a fifth of a second to import.
+    from course.engine.functions.notebook.needed import Code
+
     files = {
         module: cells.files[f"{module}.py"].encode("utf-8", "replace")[:LARGEST_FILE]
         for module in modules
@@ -86,19 +95,23 @@ def converted(work: tuple[bytes, tuple[str, ...]]) -> Notebook | str:
     }
     others = [file for file in cells.files if file.removesuffix(".py") not in COURSE]
     told = [*cells.told, *(f"{file}, which a cell writes, is left out" for file in others)]
+    rebound: dict[str, list[tuple[str, list[Place]]]] = {}
     code = Code(cells.statements, told)
     sources: dict[str, bytes] = {}
     places: dict[str, list[Place]] = {}
     left: list[Statement] = []
     for module in modules:
         text, places[module], beside = code.module(COURSE[module])
+        rebound[module] = [] if module in files else code.rebound()
         if text:
             sources[module] = text.encode("utf-8", "replace")[:LARGEST_FILE] + b"\n"
             left = beside if len(sources) == 1 else [one for one in left if one in beside]
+    again = [_again(name, where) for one in rebound.values() for name, where in one]
+    told[:0] = dict.fromkeys(again)
     if sources:
         told += _places(left)
     more = [f"{len(told) - MOST_TOLD} places more"] if len(told) > MOST_TOLD else []
-    return Notebook(sources, files, (*told[:MOST_TOLD], *more), places)
+    return Notebook(sources, files, (*told[:MOST_TOLD], *more), places, rebound)
 
 
 def modules_defined(source: bytes, modules: Iterable[str]) -> list[str]:
@@ -112,6 +125,23 @@ def modules_defined(source: bytes, modules: Iterable[str]) -> list[str]:
     most = max(count.values(), default=0)
     found = [module for module, number in count.items() if number == most > 0]
     return halves or (found if len(found) == 1 else [])
+
+
+def _again(name: str, where: Sequence[Place]) -> str:
+    """That a name is bound by several cells, and which of them counts."""
+    *before, (cell, line) = where
+    others = ", ".join(str(one) for one, _ in before[-MOST_TOLD:])
+    cells, verb = ("cell", "does") if len(before) == 1 else ("cells", "do")
+    return f"cell {cell}, line {line}: binds {name}, which {cells} {others} above {verb}, too: cell {cell} counts"
+
+
+def with_counts(text: str, counts: Mapping[int, int]) -> str:
+    """What is told of cells, with the number that a notebook shows beside each: cell 8 (In[5])."""
+    return re.sub(
+        r"\bcell (\d+)",
+        lambda found: found[0] + (f" (In[{counts[n]}])" if (n := int(found[1])) in counts else ""),
+        text,
+    )
 
 
 def _places(left: list[Statement]) -> list[str]:

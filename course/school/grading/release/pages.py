@@ -28,15 +28,15 @@ _PART = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
 def plain_pages(contents: Mapping[str, bytes]) -> dict[str, bytes]:
     """The same files; in pages, which end in .md, what stands for a part of the site tells of it.
 
-    Where a command makes the same of a scene that is among the files, that is told instead.
+    Where a command makes the same of a scene that is among the files, or of a notebook, that is told instead.
     """
 
     def told(part: re.Match[str]) -> str:
         kind, name, words = part.groups()
         scene = f"scenes/{name}.yaml"
-        if kind in _MADE_BY and scene in contents:
-            what, command = _MADE_BY[kind]
-            return f"*[{what}: `{command.format(scene=scene, words=words)}`]*"
+        what, command = _MADE_BY.get(kind, ("", ""))
+        if what and (scene in contents or f"docs/notebooks/{name}.ipynb" in contents):
+            return f"*[{what}: `{command.format(scene=scene, words=words, name=name)}`]*"
         return f"*[On the course's site: {KINDS.get(kind, 'a figure')}.]*"
 
     def plain(page: str) -> str:
@@ -74,6 +74,10 @@ def _parameters(function: Any) -> str:
 
 _MADE_BY = {
     "rays": ("The rays of one pixel, in 3D", "course pixel {scene} {words} --html rays.html"),
+    "notebook": (
+        "The notebook with its outputs on the course's site",
+        "jupyter lab docs/notebooks/{name}.ipynb",
+    ),
     "before_after": ("A picture of it", "course render {scene} -o after.png"),
     "picture": ("A picture", "course render {scene}"),
     "shot": ("A picture", "course render {scene}"),

@@ -7,7 +7,10 @@ from pathlib import Path
 import click
 
 from course.base.texts import count
+from course.engine.functions.modules import COURSE
+from course.engine.functions.notebook.reachable import parsed
 from course.engine.functions.sources import named, place_in, program_of, told_place
+from course.school.grading.checks.declare import declaration
 from course.school.grading.checks.result import Result
 from course.school.grading.places import told_of
 from course.school.grading.report import (
@@ -41,6 +44,7 @@ class Printer:
     rungs : of the ladder of hints
     command : that checks
     loops : what is told of a function that gave no answer in time: where its loops are
+    slips : what is told of a function whose text says what is wrong, before all else
     """
 
     def __init__(
@@ -50,9 +54,10 @@ class Printer:
         rungs: int,
         command: str = "course check",
         loops: Callable[[Result], str] = lambda _: "",
+        slips: Callable[[Result], str] = lambda _: "",
     ) -> None:
         self._place, self._seed, self._rungs = place, seed, rungs
-        self._command, self._loops = command, loops
+        self._command, self._loops, self._slips = command, loops, slips
         self._module = ""
         self._pending: list[Result] = []
 
@@ -76,7 +81,7 @@ class Printer:
         """Print what is left, what the code has printed, and the points."""
         self._flush()
         for module, text in report.printed.items():
-            click.echo(f"\n{module}.py printed:")
+            click.echo(f"\n{module} printed:")
             click.echo("\n".join(f"  | {line}" for line in text.splitlines()[:12]))
         passed = sum(result.status == "passed" for result in report.results)
         click.secho(
@@ -129,8 +134,13 @@ class Printer:
     def _tell(self, result: Result) -> None:
         what = "" if ending(result) == "failed" else f" [{ending(result)}]"
         click.echo(f"      {click.style(result.check, bold=True)}{what}: {result.title}")
+        slip = self._slips(result)
         for label, text in findings(result, self._rungs):
+            if slip and label == "hint":
+                continue
             _line(label, click.style(text, fg="cyan") if label == "looks like" else text)
+        if slip:
+            _line("hint", slip)
         below = len(findings(result)) > len(findings(result, self._rungs))
         more = f" --hint {self._rungs + 1}" if below else ""
         again = reproduce(result, self._seed).replace("course check", self._command, 1)
@@ -153,6 +163,27 @@ def loops_in(path: Path, result: Result) -> str:
         if isinstance(loop, ast.While)
     ]
     return f", with a loop by `while` in line {', '.join(lines)}" if lines else ""
+
+
+def order_in(source: bytes, result: Result) -> str:
+    """Of a function whose arguments stand in another order than the stub's, both; empty for any other."""
+    declared = declaration(result.module, result.function) if result.module in COURSE else None
+    tree = parsed(source)
+    if declared is None or tree is None:
+        return ""
+    wanted = [argument.name for argument in declared.arguments]
+    named = [
+        [argument.arg for argument in (*node.args.posonlyargs, *node.args.args)]
+        for node in tree.body
+        if isinstance(node, ast.FunctionDef) and node.name == result.function
+    ]
+    own = named[-1] if named else []
+    if all(name not in wanted or wanted.index(name) == place for place, name in enumerate(own)):
+        return ""
+    return (
+        f"Arguments come in the order of the stub, {result.function}({', '.join(wanted)}); yours are "
+        f"({', '.join(own)})."
+    )
 
 
 def place_told(files: dict[str, Path], folder: Path, module: str, function: str) -> str:

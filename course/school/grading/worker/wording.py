@@ -58,8 +58,8 @@ REMEDIES = {
         "take all of it."
     ),
     r"invalid index to scalar|array is 0-dimensional|object is not subscriptable": (
-        "A number came where an array was meant: np.linalg.norm, sum, min and max without axis give one number for "
-        "the whole batch; with axis=0 they give one for each column."
+        "A number has no parts to index: which of the arguments are numbers, the line above says. np.linalg.norm, "
+        "sum, min and max without axis give a number, too; with axis=0 they give one for each column."
     ),
     (
         r"index \d+ is out of bounds for axis 0|too many indices|not enough values to unpack"

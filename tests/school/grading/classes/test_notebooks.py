@@ -17,12 +17,14 @@ from benchmarks.mutants.cells import in_cells
 from course.engine.functions.modules import COURSE
 from course.engine.functions.notebook.reading import Notebook, NotebookError, read_notebook
 from course.engine.functions.notebook.reading import converted as converted_notebook
+from course.engine.functions.sources import cells_of
 from course.school.grading.classes.job import GradingJob, grade_job
 from course.school.grading.classes.keeping import fingerprint
 from course.school.grading.classes.settings import GradingSettings
 from course.school.grading.classes.submitted import find_submissions
 from course.school.grading.grading import grade
 from course.school.grading.known import known
+from course.school.grading.places import told_of
 from course.school.grading.references import references
 from course.school.grading.reports.classes import ClassLine, write_class_page, write_grades
 
@@ -203,6 +205,38 @@ def test_what_jupyter_runs_is_what_is_graded(name: str, shell: InteractiveShell)
     found = converted(*cells)
     assert not [told for told in found.told if "no Python" in told]
     np.testing.assert_array_equal(moved(found.sources["motion_blur"]), right)
+
+
+def test_which_of_several_definitions_counts_is_told_by_cells() -> None:
+    cells = (
+        BLUR.format(factor="TWICE"),
+        "TWICE = 2",
+        "import numpy as np",
+        "TWICE = 3\nbeside = 1",
+    )
+    told = "cell 4, line 1: binds TWICE, which cell 2 above does, too: cell 4 counts"
+    assert converted(*cells).told[0] == told
+    last = converted(*cells, "if True:\n    beside = displacement = abs").told[0]
+    assert last == "cell 5, line 1: binds displacement, which cell 1 above does, too: cell 5 counts"
+    # Within a cell, and the same import again, is nothing that %%check hasn't seen.
+    same = converted(
+        "import numpy as np", "import numpy as np\nA = 1\nA = 2", BLUR.format(factor="A")
+    )
+    assert same.told == ()
+
+
+def test_cells_are_told_with_the_numbers_that_jupyter_shows(tmp_path: Path) -> None:
+    document = json.loads(notebook("TWICE = 2", BLUR.format(factor="TWICE"), "TWICE = 1"))
+    for number, cell in enumerate(document["cells"]):
+        cell["execution_count"] = 7 + number
+    file = tmp_path / "motion_blur.ipynb"
+    file.write_text(json.dumps(document), encoding="utf-8")
+    assert (
+        "cell 3 (In[9]), line 1: binds TWICE, which cell 1 (In[7])"
+        in cells_of(file, "motion_blur").told[0]
+    )
+    assert told_of(file, "motion_blur", "displacement") == f"{file}, cell 2 (In[8]), line 1"
+    assert told_of(file, "motion_blur", "shutter_times") == str(file)
 
 
 def test_what_is_tried_out_beside_is_gone_and_told() -> None:
