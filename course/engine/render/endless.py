@@ -4,6 +4,7 @@ import ctypes
 import sys
 import warnings
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from threading import Thread
 from time import monotonic
 from types import FrameType
@@ -25,32 +26,29 @@ LONG_CALL = 5.0
 """Seconds after which a function that is still in one call is told of; a slow right one answers within them."""
 
 
+@dataclass
 class LongCalls:
     """Tells of a student's function that doesn't come back: nobody can see which one a picture waits for.
 
     Each function is told of once.
     """
 
-    def __init__(self) -> None:
-        self._seen: dict[int, tuple[FrameType, float]] = {}
-        self._told: set[str] = set()
-        self._looked = monotonic()
+    _seen: dict[int, tuple[FrameType, float]] = field(default_factory=dict)
+    _told: set[str] = field(default_factory=set)
 
     def look(self, threads: Sequence[Thread], now: float) -> None:
-        """See where threads are, once in a second.
+        """See where threads are.
 
         ``now``: [``time.monotonic()``]
         """
-        if now - self._looked < PATIENCE:
-            return
-        self._looked = now
-        frames = sys._current_frames()
+        frames, before = sys._current_frames(), self._seen
+        self._seen = {}
         for number in [thread.ident or 0 for thread in threads]:
             call, _ = call_in(frames.get(number))
-            known, since = self._seen.pop(number, (None, now))
             if call is None:
                 continue
             # A frame that is held is no other's later.
+            known, since = before.get(number, (None, now))
             since = since if call is known else now
             self._seen[number] = call, since
             if now - since >= LONG_CALL and (said := asked_in(frames[number])):

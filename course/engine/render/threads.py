@@ -22,6 +22,9 @@ from course.engine.render.endless import LongCalls, end_endless
 TICK = 0.05
 """Seconds between two checks of progress and Ctrl-C in the main thread."""
 
+LOOK = 1.0
+"""Seconds between two looks for a function that doesn't come back."""
+
 HURRIED = 4
 """Most batches of rays in a tile under a time limit. A tile that has begun is finished, so tiles are kept small."""
 
@@ -78,6 +81,7 @@ class ThreadedExecutor(Executor):
 
     def __init__(self, servers: int, grace: float | None = None) -> None:
         self._servers, self._grace = servers, grace
+        self._long_calls = LongCalls()
         self.counters = Counters()
         self.interrupted = False
         self.deadline = inf
@@ -103,10 +107,12 @@ class ThreadedExecutor(Executor):
         try:
             for thread in threads:
                 thread.start()
-            long_calls = LongCalls()
+            look = monotonic() + LOOK
             while not run.finished.wait(TICK):
                 tick(run.film.done, run.film.done_first)
-                long_calls.look(threads, monotonic())
+                if (now := monotonic()) >= look:
+                    look = now + LOOK
+                    self._long_calls.look(threads, now)
         except KeyboardInterrupt:
             self.interrupted = True
         finally:
