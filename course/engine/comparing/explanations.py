@@ -28,6 +28,9 @@ BLURS = (0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0)
 SHARED_BY_MOVING, SHARED_BY_BLURRING = 0.625, 0.54
 """What remains of independent noise alone if a picture is moved by half a pixel, or is blurred."""
 
+WAYS = ("to the left", "to the right"), ("up", "down")
+"""Of movements across and down, by negative and positive sizes."""
+
 TURNS = {
     "is B flipped upside down": np.s_[::-1, :],
     "is B flipped left to right": np.s_[:, ::-1],
@@ -135,7 +138,7 @@ def direction(across: float, down: float) -> str:
     """A movement in words: "1 pixel to the right and .5 pixels up"."""
     parts = [
         f"{_pixels(abs(size))} {words[size > 0]}"
-        for size, words in ((across, ("to the left", "to the right")), (down, ("up", "down")))
+        for size, words in zip((across, down), WAYS, strict=True)
         if abs(size) >= max(0.05, 0.1 * max(abs(across), abs(down)))
     ]
     return " and ".join(parts) or "less than 0.05 pixels"

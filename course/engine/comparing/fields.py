@@ -4,8 +4,12 @@ A picture that is moved differs by its gradient, a blurred one by its Laplacian,
 the difference of two pictures is multiplied by what their mean looks like, and divided by the noise around; sums of
 that are 0 but for noise, if the pictures are the same. What a pixel's mean looks like is taken from its neighbours
 alone: with its own value, noise would be multiplied by itself.
+
+Beside an edge the four neighbours of a pixel have the same mean as it would have on either side. There the pixels along
+the edge say on which side it lies: those across it less those along it are the Laplacian, too.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +19,10 @@ from course.engine.comparing.windows import Field
 from course.engine.core.types import Floats64
 
 COLOURS = ("red", "green", "blue")
-KINDS = (*COLOURS, "moved across", "moved down", "blurred", "alike across", "alike down")
+KINDS = (
+    *(*COLOURS, "moved across", "moved down", "blurred", "blurred"),
+    *("alike across", "alike down"),
+)
 """The last two are made of the first (`course.engine.comparing.windows.alike`)."""
 
 SURE = 1.0
@@ -27,19 +34,30 @@ SHARED = 4.0
 SLOPE_VARIANCE = 0.125
 """Of a slope of the pictures' mean, in parts of the difference's variance; by the weights below."""
 
+NOWHERE = 1e-300
+"""Squared slope of an edge that has no direction."""
+
 
 @dataclass(frozen=True)
 class Slopes:
-    """Of the mean of two pictures, (H, W, 3) each: to the right, down, and the Laplacian; 0 where noise hides it."""
+    """Of the mean of two pictures, (H, W, 3) each, 0 where noise hides it.
+
+    Attributes
+    ----------
+    across, down : to the right, and down
+    edges : the Laplacian beside edges
+    laplacian : the same by what is around, too
+    """
 
     across: Floats64
     down: Floats64
+    edges: Floats64
     laplacian: Floats64
 
 
 def slopes_of(mean: Floats64, noise: DifferenceNoise) -> Slopes:
-    """By the pixels around each, and not by itself."""
-    padded = np.pad(mean, ((2, 2), (2, 2), (0, 0)), mode="edge")
+    """By the pixels around each, and not by itself; 0 where some of these lie beyond the border."""
+    padded = np.pad(mean, ((2, 2), (2, 2), (0, 0)), constant_values=np.nan)
 
     def at(down: int, across: int) -> Floats64:
         height, width = mean.shape[:2]
@@ -48,17 +66,37 @@ def slopes_of(mean: Floats64, noise: DifferenceNoise) -> Slopes:
 
     near = at(0, 1) + at(0, -1) + at(1, 0) + at(-1, 0)
     far = at(0, 2) + at(0, -2) + at(2, 0) + at(-2, 0)
-    variance = SURE * SLOPE_VARIANCE * noise.size**2
+    edges = _across_edges(at) / 2
 
-    def sure(slope: Floats64) -> Floats64:
+    def sure(slope: Floats64, sums: int = 1) -> Floats64:
+        variance = sums * SURE * SLOPE_VARIANCE * noise.size**2
+        slope = np.where(np.isnan(slope), 0.0, slope)
         kept = np.maximum(slope**2 - variance, 0) / np.maximum(np.abs(slope), 1e-150)
         return np.copysign(kept, slope)
 
     return Slopes(
         across=sure((at(0, 1) - at(0, -1)) / 2),
         down=sure((at(1, 0) - at(-1, 0)) / 2),
-        laplacian=sure((far - near) / 4),
+        edges=sure(edges, 2),
+        laplacian=sure((far - near) / 4 + edges, 2),
     )
+
+
+def _across_edges(at: Callable[[int, int], Floats64]) -> Floats64:
+    """Second difference across the edge at each pixel less that along it, by its eight neighbours.
+
+    Of u(x)^2 / 2, a parabola along any direction, it is 1.
+    """
+    corners = at(1, 1), at(-1, -1), at(1, -1), at(-1, 1)
+    falling, rising = corners[0] + corners[1], corners[2] + corners[3]
+    across = at(0, 1) - at(0, -1) + (corners[0] - corners[1] + corners[3] - corners[2]) / 2
+    down = at(1, 0) - at(-1, 0) + (corners[0] - corners[1] + corners[2] - corners[3]) / 2
+    square = np.maximum(across**2 + down**2, NOWHERE)
+    straight = at(0, 1) + at(0, -1) - at(1, 0) - at(-1, 0)
+    # By the cosine and the sine of twice the angle of the slope.
+    turned: Floats64 = (across**2 - down**2) * straight + across * down * (falling - rising)
+    turned /= square
+    return turned
 
 
 def fields_of(
@@ -73,9 +111,10 @@ def fields_of(
     slopes = slopes_of((part.a + part.b) / 2, noise)
     squares = noise.size**2
     if inflation > SHARED:
-        slopes.laplacian[:] = 0
+        slopes.edges[:] = slopes.laplacian[:] = 0
     weights = [
-        slope / squares * counted for slope in (slopes.across, slopes.down, slopes.laplacian)
+        slope / squares * counted
+        for slope in (slopes.across, slopes.down, slopes.edges, slopes.laplacian)
     ]
     even = counted / noise.size
     return [

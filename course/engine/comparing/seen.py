@@ -4,7 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.comparing.explanations import direction, likenesses, movement, of_channels, where
+from course.engine.comparing.explanations import (
+    WAYS,
+    direction,
+    likenesses,
+    movement,
+    of_channels,
+    where,
+)
 from course.engine.comparing.fields import COLOURS
 from course.engine.comparing.noise import noise_of
 from course.engine.comparing.significance import SIGNS, SPOT, Comparison, Finding
@@ -77,6 +84,10 @@ def _sentence(found: Comparison, one: Finding) -> str:
         return f"A has other shapes or colours{at}"
     part = found.pair.part(one.place)
     if one.kind.startswith("moved"):
+        if one.place.is_line:
+            # Too little to be laid on another picture.
+            words = WAYS["down" in one.kind]
+            return f"A is moved {words[one.t < 0]}{at}"
         level = noise_of(part, found.level)
         across, down = movement(part, part.usable[..., None] / level.size)
         return f"A is moved by about {direction(across, down)}{at}"

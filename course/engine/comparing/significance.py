@@ -4,8 +4,9 @@ How noisy a pixel is nobody says, and its neighbour may be a hundred times as no
 mean, noise makes a pixel of the first brighter as often as darker. So what is tested are signs: whether they agree in
 a window more than chance allows (``course.engine.comparing.windows``), be they those of the difference itself, or of
 its product with the picture's slopes, which a movement or a blur turns all one way
-(``course.engine.comparing.fields``). Windows have all sizes from 8 pixels to the whole picture. What is smaller is
-found by how it stands out (``course.engine.comparing.spots``).
+(``course.engine.comparing.fields``). Windows have all sizes from 8 pixels to the whole picture, and each row and column
+is one, too (``course.engine.comparing.lines``). What is smaller is found by how it stands out
+(``course.engine.comparing.spots``).
 
 p-values are corrected for the numbers of windows, sizes, fields and shapes of spots (Bonferroni).
 """
@@ -15,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.engine.comparing.fields import COLOURS, KINDS, fields_of
+from course.engine.comparing.lines import Lines
 from course.engine.comparing.noise import Level, level_of, noise_of
 from course.engine.comparing.one_sign import of_one_sign
 from course.engine.comparing.one_sign import p_value as p_of_signs
@@ -111,7 +113,7 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
     some = pair.sample()
     level, normal = level_of(some), usual(some)
     z = np.zeros((len(SHAPES), *pair.usable.shape))
-    cells: list[Floats64] = []
+    cells, lines = list[Floats64](), Lines(*pair.usable.shape)
     patches: list[list[tuple[float, int, int]]] = []
     signs: list[Mask] = []
     for part, own, rows in pair.strips(grid):
@@ -119,6 +121,7 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
         fields = fields_of(part, noise, rounding, level.inflation)
         strip = grid.strip(rows)
         cells.append(np.stack([field.cells(own, strip) for field in fields]))
+        lines.add(fields, own)
         signs.append(of_one_sign(part.d, rounding, own, strip))
         upper = rows.start - own.start
         of_strip = largest_t(part, own, noise, rounding, level.least)
@@ -128,7 +131,10 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
     summed = np.concatenate((summed, alike(summed[: len(COLOURS)], level.inflation)))
     # Noise that is spread evenly makes neighbours unlike.
     positive = [number for number, kind in enumerate(KINDS) if kind.startswith("alike")]
-    sums = list(largest_sums(summed, grid, level.inflation, positive))
+    sums = [
+        *largest_sums(summed, grid, level.inflation, positive),
+        *lines.largest(level.inflation),
+    ]
     spots: list[Spot | Even] = [
         *(most_different_spot(of_shape, shape) for of_shape, shape in zip(z, SHAPES, strict=True)),
         *evenest(patches, 3 * pair.usable.size, level.inflation),

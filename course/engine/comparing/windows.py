@@ -43,6 +43,11 @@ class Window:
         """Index of its rows and columns."""
         return slice(self.top, self.top + self.height), slice(self.left, self.left + self.width)
 
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a part of one row or column."""
+        return min(self.width, self.height) == 1
+
     def meets(self, other: "Window") -> bool:
         """Whether they share pixels."""
         return (
@@ -159,8 +164,18 @@ class Field:
 
     def cells(self, rows: slice, grid: Grid) -> Floats64:
         """Sums over cells of some rows (4, down, across): of the values, their squares, and the two others."""
-        parts = self.values, self.values**2, self.squares, self.off
-        return np.stack([grid.cells(one[rows]) for one in parts])
+        return np.stack([grid.cells(one[rows]) for one in self._parts])
+
+    def lines(self, rows: slice) -> tuple[Floats64, Floats64]:
+        """The same sums over each of some rows, (4, rows), and over each column in these rows, (4, W)."""
+        parts = [one[rows] for one in self._parts]
+        return np.stack([one.sum(axis=1) for one in parts]), np.stack(
+            [one.sum(axis=0) for one in parts]
+        )
+
+    @property
+    def _parts(self) -> tuple[Floats64, ...]:
+        return self.values, self.values**2, self.squares, self.off
 
 
 INDEPENDENT = 1.5
@@ -208,21 +223,31 @@ def largest_sums(
     ``cells``: sums (fields, 4, down, across) as `Field.cells` returns them;
     ``inflation``: by what the variance of sums is larger, for neighbours are alike.
     """
-    # Differences of cumulated sums leave some rounding where all is 0.
-    least = 1e-14 * cells[:, 1].sum(axis=(1, 2))[:, None, None]
     sides = grid.sides()
+    squares = cells[:, 1].sum(axis=(1, 2))
     for side in sides:
         windows = grid.windows(side)
-        total, seen, known, off = np.moveaxis(windows.sums(cells), 1, 0)
-        size = np.maximum(np.abs(total) - off, 0)
-        variance = np.maximum(np.maximum(seen, known), 0)
-        t = np.divide(
-            size, np.sqrt(variance * inflation), out=np.zeros_like(size), where=variance > least
-        )
-        t[list(positive)] *= total[list(positive)] > 0
+        t = t_of(windows.sums(cells), squares, inflation)
+        t[list(positive)] *= t[list(positive)] > 0
         for field, of_windows in enumerate(t.reshape(len(t), -1)):
-            number = int(of_windows.argmax())
+            number = int(np.abs(of_windows).argmax())
             largest = float(of_windows[number])
-            sign = float(np.sign(total[field].ravel()[number]))
             p = min(1.0, windows.count * p_value(largest))
-            yield Sum(field, sign * largest, p, windows.place(number), side == sides[-1])
+            yield Sum(field, largest, p, windows.place(number), side == sides[-1])
+
+
+def t_of(sums: Floats64, squares: Floats64, inflation: float) -> Floats64:
+    """T (fields, ...) with its sign, of sums (fields, 4, ...) as `Field.cells` returns them.
+
+    ``squares``: (fields,) of all values of a picture
+    """
+    total, seen, known, off = np.moveaxis(sums, 1, 0)
+    size = np.maximum(np.abs(total) - off, 0)
+    variance = np.maximum(np.maximum(seen, known), 0)
+    # Differences of cumulated sums leave some rounding where all is 0.
+    least = 1e-14 * squares.reshape(-1, *(1,) * (total.ndim - 1))
+    t = np.divide(
+        size, np.sqrt(variance * inflation), out=np.zeros_like(size), where=variance > least
+    )
+    signed: Floats64 = np.copysign(t, total)
+    return signed
