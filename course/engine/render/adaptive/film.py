@@ -9,6 +9,7 @@ from course.engine.core.types import Floats32, Floats64, Indices
 from course.engine.render.adaptive.pixel_groups import TwinGroup
 from course.engine.render.adaptive.prior import Prior
 from course.engine.render.adaptive.smoothing import Guide, smoothed
+from course.engine.render.adaptive.unseen_edges import unseen_edges
 from course.engine.render.adaptive.variance import INDEPENDENT, measured_order, variance_share
 
 PARTS = 4
@@ -66,6 +67,7 @@ class AdaptiveFilm:
         """Mean variance that the last audit corrected [radiance^2]; 0 before the first."""
         self.audited = 0
         """Samples that audits have taken, which are not in the picture."""
+        self._edges: tuple[Indices, Floats32] = np.empty(0, np.intp), np.empty(0, np.float32)
         self._twins: dict[int, tuple[Indices, Floats64, Floats32]] = {}
 
     def add(
@@ -173,16 +175,29 @@ class AdaptiveFilm:
 
     @property
     def believed(self) -> Floats32:
-        """(H, W) variance of each pixel, by what is known before it has samples, too.
+        """(H, W) variance of each pixel, by what is known before it has samples and by edges it may have missed, too.
 
-        The prior's are divided by what others are multiplied with: audits judge those alone.
+        These are divided by what others are multiplied with: audits judge those alone.
         """
-        if self._prior is None:
+        pixels, lacking = self._lacking()
+        if self._prior is None and not len(pixels):
             return self.variance
         result = self.variance.copy()
-        known = self._prior.believed(self.variance, self.samples)
-        result.reshape(-1)[self._prior.pixels] = known / (self.correction * self._spread)
+        by_all = self.correction * self._spread
+        if self._prior is not None:
+            known = self._prior.believed(self.variance, self.samples)
+            result.reshape(-1)[self._prior.pixels] = known / by_all
+        result.reshape(-1)[pixels] += lacking / by_all
         return result
+
+    def _lacking(self) -> tuple[Indices, Floats32]:
+        """Pixels (m,) beside which an edge may be unseen, and what that adds to their variance (m,).
+
+        Of no use to an audit: a second picture would hardly see it either.
+        """
+        pixels, unit = self._edges
+        n = np.maximum(self.samples.reshape(-1)[pixels], 1).astype(np.float32)
+        return pixels, unit / (n * n)
 
     @property
     def foreseen(self) -> Indices:
@@ -250,6 +265,9 @@ class AdaptiveFilm:
         if self._prior is not None:
             known = self._prior.believed(self.variance, self.samples)
             variance.reshape(-1)[self.foreseen] = known / self.correction
+        self._edges = unseen_edges(self.linear, self.variance, self.samples)
+        pixels, lacking = self._lacking()
+        variance.reshape(-1)[pixels] += lacking / self.correction
         return variance, cost
 
     def _without_finds(self) -> Floats32:
