@@ -38,6 +38,7 @@ from benchmarks.reached_error import measure_quickly, measure_reached_error
 from benchmarks.report import publish
 from benchmarks.sampling import measure_sampling
 from benchmarks.scaling import measure_scaling, write_scaling
+from benchmarks.told_errors import measure_told_errors
 from course.benchmarking.machine import machine
 from course.benchmarking.tables import print_tables
 from course.cli.bench import DOCUMENTS, bench
@@ -55,6 +56,7 @@ MEASURES = {
     "dragons": measure_dragons,
     "adaptive": measure_adaptive,
     "reached_error": measure_reached_error,
+    "told_errors": measure_told_errors,
     "allocation_oracle": measure_oracle,
     "radiosity": measure_radiosity,
     "bounding_volumes": measure_bounding_volumes,

@@ -1,0 +1,94 @@
+"""How true the error is that `--error` tells of a picture: 240 runs over 30 scenes, in small pictures.
+
+The scenes are those of `benchmarks.reached_error`, and so is what is asked for. Beside what is reached stands what is
+told. Where a few pixels have all of the error, one run's error is chance, and no estimate is near it: the more so, the
+fewer pixels a picture has. As a program of its own it takes fewer scenes and seeds:
+`python -m benchmarks.told_errors --scene cornell_box --seeds 4`.
+"""
+
+from collections.abc import Sequence
+
+import click
+import numpy as np
+
+from benchmarks.figures import Figure, summary
+from benchmarks.reached_error import CASES, Effort, Runs, measure
+from course.benchmarking.tables import Table, print_tables
+
+EFFORT = Effort(height=72, seeds=8)
+
+NEAR = 0.1
+"""What is told shall be within this share of what is reached."""
+
+GOAL = 0.95
+"""In this share of the runs."""
+
+MOST = 2.0
+"""Reached over asked at most, where nothing is told as not bounded."""
+
+
+def measure_told_errors() -> list[Figure]:
+    """Print a table of all scenes; figures are the shares and the worst run."""
+    return figures([measure(name, EFFORT) for name in EFFORT.names])
+
+
+def ratios(runs: Runs) -> list[float]:
+    """Told over reached, by seed."""
+    return [told / reached for told, reached in zip(runs.told, runs.reached, strict=True)]
+
+
+def near(runs: Sequence[Runs]) -> float:
+    """Share of all runs whose told error is near the one that was reached."""
+    found = np.concatenate([ratios(one) for one in runs])
+    return float((np.abs(found - 1) <= NEAR).mean())
+
+
+def figures(found: Sequence[Runs]) -> list[Figure]:
+    """The share that is near, the worst that was reached, and both apart in each scene; printed as a table, too."""
+    print_tables([table(found)])
+    share, count = near(found), sum(len(one.told) for one in found)
+    label = f"--error: share of {count} runs that tell their error within {NEAR:.0%}"
+    result = [Figure(label, share, share, share, GOAL, at_least=True)]
+    bounded = [max(one.ratios) for one in found if one.bounded]
+    if bounded:
+        label = "--error: reached over asked, at most in each scene that tells no cause"
+        result.append(summary(label, bounded, MOST, at_least=False))
+    return result
+
+
+def table(found: Sequence[Runs]) -> Table:
+    """A row for each scene."""
+    columns = (
+        *("scene", "asked", "reached / asked", "most", "told / reached", "least", "most"),
+        *(f"within {NEAR:.0%}", "not bounded", "samples"),
+    )
+    rows = tuple(
+        (
+            one.name,
+            f"{one.asked:.3g}",
+            *(f"{x:.2f}" for x in (np.median(one.ratios), max(one.ratios))),
+            *(f"{x:.2f}" for x in (np.median(told), min(told), max(told), near([one]))),
+            "" if one.bounded else "yes",
+            f"{np.median(one.samples):.1f}",
+        )
+        for one in found
+        for told in (ratios(one),)
+    )
+    return Table("Told errors of --error beside those reached", columns, rows)
+
+
+@click.command(help=__doc__)
+@click.option("--scene", "names", multiple=True, type=click.Choice(list(CASES)), help="Only this.")
+@click.option("--seeds", default=EFFORT.seeds, show_default=True, help="Of each scene.")
+@click.option(
+    "--height", default=EFFORT.height, show_default=True, help="Of the pictures [pixels]."
+)
+def main(names: tuple[str, ...], seeds: int, height: int) -> None:
+    """Do what the command line asks for."""
+    effort = Effort(height, seeds, EFFORT.reference, names or EFFORT.names)
+    for figure in figures([measure(name, effort) for name in effort.names]):
+        click.echo(f"{figure.name}: {figure.value:.3f} (goal {figure.goal:g})")
+
+
+if __name__ == "__main__":
+    main()
