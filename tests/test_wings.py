@@ -25,7 +25,7 @@ def test_each_folder_of_tests_belongs_to_one_wing() -> None:
     )
 
 
-BUDGET = {"engine": 32_300, "school": 21_950}
+BUDGET = {"engine": 32_420, "school": 21_950}
 """Lines that carry code. To raise one, say in the commit what a user gets for it."""
 
 
