@@ -27,7 +27,7 @@ from course.cli.options import INTERRUPTED
 from course.engine.functions.effects import CHECKOUT
 
 SECTIONS = {
-    "Learn": ("start", "check", "status", "studio", "portfolio"),
+    "Learn": ("start", "check", "status", "studio", "portfolio", "docs"),
     "Render": (
         *("render", "pixel", "view", "radiosity", "info", "convert", "compare", "schema"),
         *("demo", "bench"),

@@ -2,6 +2,7 @@
 // to.
 {
   const load = () => {
+    for (const folded of document.querySelectorAll("article details.deep")) folded.open = true;
     const pictures = [...document.querySelectorAll("article img")];
     for (const picture of pictures) picture.loading = "eager";
     return Promise.allSettled(pictures.map((picture) => picture.decode()));

@@ -3,12 +3,17 @@
 import re
 from html import escape
 
+from PIL import Image
+
 from course.engine.functions.modules import TAUGHT
-from sitebuild import pictures
+from sitebuild import pictures, webp
 from sitebuild.objectives import title
 from sitebuild.place import Place
-from sitebuild.shots import image
+from sitebuild.shots import tag
 from sitebuild.teaching_file import DOCS, minutes, teaching
+
+WIDTH = 480
+"""Pixels across: two for each that a card shows."""
 
 LEVELS = {100: "short", 149: "medium"}
 """Most minutes of writing, and how a module of so many is called; the others are long."""
@@ -29,7 +34,7 @@ def _card(place: Place, number: int, module: str) -> str:
     level = next((level for most, level in LEVELS.items() if writing <= most), "long")
     seen = ""
     if pictures.scene_path(module).is_file():
-        seen, _ = image(place, pictures.shot(module), f"{title(module)}: the scene of the module")
+        seen = _small(place, pictures.shot(module), f"{title(module)}: the scene of the module")
     name = title(module)
     return (
         f'<li><a href="{place.up}modules/{module}.html">{seen}'
@@ -37,3 +42,16 @@ def _card(place: Place, number: int, module: str) -> str:
         f"<span>{escape(said)}</span>"
         f"<small>{level}: {reading} + {writing} minutes{escape(after)}</small></a></li>"
     )
+
+
+def _small(place: Place, planned: pictures.Shot, alternative: str) -> str:
+    """A scene's picture in the size of a card: all of them are on one page."""
+    width, height = planned.size
+    size = WIDTH, round(WIDTH * height / width)
+    file = place.made / "cards" / planned.file
+    if place.blank:
+        webp.save_blank(file, size)
+    else:
+        with Image.open(pictures.picture(planned)[0]) as whole:
+            webp.save(whole.resize(size, Image.Resampling.LANCZOS), file, pictures.QUALITY)
+    return tag(place.address(f"_cards/{planned.file}", file), alternative, size)

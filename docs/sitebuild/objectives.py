@@ -1,11 +1,13 @@
 """What a module teaches, at the top of its page; and of all modules, for those who teach.
 
-``<!-- site: objectives MODULE -->`` stands on the page of a module unasked, ``<!-- site: objectives -->`` lists all.
+``<!-- site: objectives MODULE -->`` stands on the page of a module unasked, and above it its task.
+``<!-- site: objectives -->`` lists all.
 """
 
 from collections.abc import Iterator
 
 from course.base.errors import CourseError
+from course.engine.functions.modules import COURSE
 from sitebuild.place import Place
 from sitebuild.teaching_file import Module, minutes, teaching
 
@@ -24,6 +26,12 @@ def objectives(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     if name not in known:
         raise CourseError(f"no module {name} in docs/teaching.yaml; it has {', '.join(known)}")
     return "\n".join(_for_readers(name, known[name]))
+
+
+def task(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
+    """What is to be written, and what checks it, in a line."""
+    written = ", ".join(f"[{function}](#{function})" for function in COURSE[name])
+    return f"**To write** in `assignments/{name}`: {written}. **To check:** `course check {name}`\n"
 
 
 def title(module: str) -> str:

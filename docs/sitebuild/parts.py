@@ -1,8 +1,9 @@
 """The generated parts of pages, and when they are made anew.
 
 A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. Unasked, a
-module's objectives stand before "The phenomenon", which begins with the pair of its two scenes' pictures if it has two
-that differ, and its quiz stands before "Exercises".
+module's page begins with its task, the pair of its two scenes' pictures if it has two that differ, and its objectives;
+what each function looks like when it is right stands before its common mistakes, which are folded; and the quiz stands
+before "Exercises".
 """
 
 import re
@@ -26,9 +27,9 @@ from sitebuild.glossary import directives, indexed
 from sitebuild.heat_maps import INSTEAD, heat_map
 from sitebuild.homage import homage
 from sitebuild.live import live
-from sitebuild.mistakes.part import mistakes
+from sitebuild.mistakes.part import mistakes, right
 from sitebuild.notebook import notebook
-from sitebuild.objectives import objectives
+from sitebuild.objectives import objectives, task
 from sitebuild.other_shots import metu_shot, radiosity_shot
 from sitebuild.pattern_explorer import pattern_explorer
 from sitebuild.peer_times import peer_times
@@ -47,6 +48,20 @@ from sitebuild.studio_film import studio_film
 from sitebuild.walk import walk_steps
 
 MARK = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
+
+_LISTS = re.compile(
+    r"^Common mistakes:\n\n((?:- .*\n(?: {2}.*\n)*)+)\n<!-- site: mistakes (.*)-->\n", re.MULTILINE
+)
+_FOLDED = r"""<!-- site: right \2-->
+
+<details class="deep"><summary>Common mistakes, with a picture of each</summary>
+
+\1
+<!-- site: mistakes \2-->
+
+</details>
+"""
+"""A list of common mistakes tells nearly all that is to be found out: it is opened by who wants to know."""
 
 Part = Callable[[Place, str, str], str]
 """Takes where the part stands, its name and the words after that; returns Markdown."""
@@ -76,11 +91,13 @@ PARTS: dict[str, Part] = {
     "radiosity_shot": radiosity_shot,
     "radiosity_steps": radiosity_steps,
     "rays": rays,
+    "right": right,
     "scene_keys": scene_keys,
     "series": series,
     "series_grid": series_grid,
     "shot": shot,
     "studio_film": studio_film,
+    "task": task,
     "walk": walk_steps,
 }
 
@@ -143,21 +160,24 @@ class Site:
         folder, _, module = page.rpartition("/")
         text = indexed(page, linked(module, text) if folder == "modules" else text)
         if folder == "modules":
-            heading = f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
+            heading = f"\n<!-- site: task {module} -->\n"
             if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
                 heading += f"\n<!-- site: before_after {module} -->\n"
-            text = text.replace("\n## The phenomenon\n", heading, 1)
+            heading += f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
+            text = _LISTS.sub(_FOLDED, text.replace("\n## The phenomenon\n", heading, 1))
             if has_questions(module):
                 asked = f"\n## {HEADING}\n\n<!-- site: quiz {module} -->\n\n## Exercises\n"
                 text = text.replace("\n## Exercises\n", asked, 1)
         if page == "glossary":
             text = directives(text)
+        blank = self.app.config.pictures == "blank"
         place = Place(
             up="../" * page.count("/"),
-            blank=self.app.config.pictures == "blank",
+            blank=blank,
             made=Path(self.app.doctreedir) / "made",
             files=self.files,
             kept=self.kept,
+            site=None if blank else Path(self.app.outdir),
         )
         return MARK.sub(lambda match: _part(match, place), text)
 

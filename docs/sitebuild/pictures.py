@@ -1,6 +1,7 @@
 """Pictures of scenes, rendered once and kept under a hash of all that decides them."""
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,11 +19,20 @@ from sitebuild import webp
 
 KEPT = PROJECT / "out" / "docs" / "pictures"
 
-WIDTH = 600
-"""Pixels across; wider scenes are rendered smaller, in their own proportions."""
+WIDTH = 1200
+"""Pixels across at most, in the scene's proportions: on most screens two for each that a page shows."""
+
+SMALL = 600
+"""The same of scenes whose pixels are what one looks at, and of small ones."""
+
+NARROW = 400
+"""Columns of a scene's film below which it is small."""
 
 SAMPLES = 256
-"""Samples a pixel at most."""
+"""Samples a pixel at most, where a scene is as large as it says."""
+
+FEW = 4
+"""Samples a pixel that stay as they are; of more, twice the pixels across have a quarter, which is the same light."""
 
 QUALITY = 92
 
@@ -79,8 +89,7 @@ def shot(name: str) -> Shot:
     """
     loaded = load_description(scene_path(name))
     scene = loaded.description
-    size = _size(loaded)
-    samples = min(scene.sampler.samples, SAMPLES)
+    size, samples = _size_and_samples(loaded)
     key = scene_hash(
         loaded,
         Effects(),
@@ -93,10 +102,17 @@ def shot(name: str) -> Shot:
     return Shot(name, scene.title or name, size, samples, key)
 
 
-def _size(loaded: Loaded) -> tuple[int, int]:
-    film = loaded.description.film
-    width = min(film.width, WIDTH)
-    return width, round(width * film.height / film.width)
+def _size_and_samples(loaded: Loaded) -> tuple[tuple[int, int], int]:
+    film, sampler = loaded.description.film, loaded.description.sampler
+    samples = min(sampler.samples, SAMPLES)
+    width = min(film.width, SMALL)
+    if film.width >= NARROW and film.subdivision is None and film.denoise is None:
+        width = min(2 * film.width, WIDTH)
+        if samples > FEW:
+            samples = max(samples // 4, FEW)
+        if sampler.type in ("regular", "jittered"):
+            samples = max(math.isqrt(samples) ** 2, 1)
+    return (width, round(width * film.height / film.width)), samples
 
 
 def picture(planned: Shot, kept: Path = KEPT) -> tuple[Path, dict[str, Any]]:

@@ -16,7 +16,7 @@ def picture(place: Place, name: str, words: str = "") -> str:
     planned = pictures.shot(name)
     beside = planned.scene.with_suffix(".webp")
     if not beside.is_file():
-        return f'<p class="wide">{image(place, planned, words)[0]}</p>\n'
+        return f'<p class="{_wide(planned.size)}">{image(place, planned, words)[0]}</p>\n'
     with Image.open(beside) as kept:
         shown = tag(place.address(f"_pictures/{planned.file}", beside), words, kept.size)
     return f'<p class="wide large">{shown}</p>\n'
@@ -28,7 +28,7 @@ def before_after(place: Place, name: str, words: str = "") -> str:  # noqa: ARG0
     left, _ = image(place, before, f"{after.title}: the scene without it")
     right, _ = image(place, after, f"{after.title}: the same scene with it")
     caption = f"{escape(after.title)}: scenes/before/{name}.yaml and scenes/{name}.yaml"
-    return slider((left, "without"), (right, "with"), caption)
+    return slider((left, "without"), (right, "with"), caption, large=fills(after.size))
 
 
 def slider(
@@ -68,11 +68,20 @@ def shot(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
         threads, seconds = receipt["threads"], receipt["wall_seconds"]
         each = f"{count(receipt['samples'], 'sample')} a pixel"
         cost = f"{each}, {seconds:.0f} s on {count(threads, 'thread')}"
-    return laid_out(planned.title, shown, planned.command, text, planned.scene, file, cost)
+    return laid_out(
+        planned.title, shown, planned.command, text, planned.scene, file, cost, _wide(planned.size)
+    )
 
 
 def laid_out(
-    title: str, image: str, command: str, receipt: str, scene: Path, file: str, cost: str = ""
+    title: str,
+    image: str,
+    command: str,
+    receipt: str,
+    scene: Path,
+    file: str,
+    cost: str = "",
+    wide: str = "wide",
 ) -> str:
     """Lay out a scene with all that belongs to it.
 
@@ -82,11 +91,12 @@ def laid_out(
     receipt : what the command prints
     file : address of the scene on the site
     cost : what stands below the picture
+    wide : classes of what it stands in
     """
     kind = scene.suffix.removeprefix(".")
     return f"""## {title}
 
-<p class="wide">{image}</p>
+<p class="{wide}">{image}</p>
 
 {cost}
 
@@ -122,6 +132,15 @@ def image(
         file, receipt = pictures.picture(planned)
     address = place.address(f"_pictures/{planned.file}", file)
     return tag(address, alternative or planned.title, planned.size), receipt
+
+
+def fills(size: tuple[int, int]) -> bool:
+    """Whether a picture is shown as wide as its column: it has the pixels, and would not be higher than a screen."""
+    return size[0] > pictures.SMALL and size[0] >= 1.2 * size[1]
+
+
+def _wide(size: tuple[int, int]) -> str:
+    return "wide large" if fills(size) else "wide"
 
 
 def tag(address: str, alternative: str, size: tuple[int, int]) -> str:

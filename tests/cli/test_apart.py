@@ -58,6 +58,7 @@ RUNS: dict[str, tuple[str, ...]] = {
         "--time-limit",
         "1",
     ),
+    "docs": ("docs", "soft_shadows", "--no-browser"),
     "render": ("render", "a.yaml", "--effects", "mine", "-o", "../a.png"),
     "pixel": ("pixel", "a.yaml", "12,8", "--html", "../a.html"),
     "view": ("view", "a.yaml", "--no-browser"),

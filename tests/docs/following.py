@@ -56,6 +56,7 @@ SHORTER: dict[str, list[str]] = {
     "calibrate": ["--seeds", "1"],
     "quiz": ["--modules", "film"],
     "portfolio": ["--time-limit", "1"],
+    "docs": ["--no-browser"],
 }
 """Options added to a command to make it short; of two equal options the last one holds."""
 

@@ -9,6 +9,12 @@ from tests.browser import tab_to, untroubled
 def test_a_mistake_opens_beside_what_is_right(browser: Any, site: Path) -> None:
     with untroubled(browser) as page:
         page.goto((site / "modules" / "soft_shadows.html").as_uri())
+        first = page.locator("details.deep").first
+        group = first.locator(".mistakes").first
+        assert not group.is_visible()
+        alone = first.locator("xpath=preceding::figure[1]")
+        assert "right" in alone.get_attribute("class").split()
+        first.locator("summary").click()
         tab_to(page, ".mistakes button", 400)
         page.keyboard.press("Enter")
         dialog = page.locator("dialog.mistake")
@@ -23,7 +29,6 @@ def test_a_mistake_opens_beside_what_is_right(browser: Any, site: Path) -> None:
             "(all) => all.map((each) => each.src)"
         )
         assert both == [right, wrong]
-        group = page.locator(".mistakes").first
         assert right == group.locator("figure.right img").evaluate("(each) => each.src")
         page.keyboard.press("ArrowRight")
         assert dialog.locator("img").nth(1).evaluate("(each) => each.src") != wrong

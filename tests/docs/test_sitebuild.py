@@ -11,6 +11,7 @@ pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[do
 
 from docutils import nodes
 from sitebuild import docstrings, key_headings, mathematics, numbers, parts, pictures
+from sitebuild.place import Place
 
 SCENE = """\
 title: A ball
@@ -36,10 +37,10 @@ def test_a_picture_is_rendered_once(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     planned = pictures.shot("ball")
     path, receipt = pictures.picture(planned, tmp_path / "kept")
     with Image.open(path) as image:
-        assert image.size == planned.size == (600, 150)
+        assert image.size == planned.size == (1200, 300)
         assert image.convert("L").getextrema()[1] > 50
     assert receipt["samples"] == 2
-    assert receipt["rays"]["camera"] == 600 * 150 * 2
+    assert receipt["rays"]["camera"] == 1200 * 300 * 2
     monkeypatch.setattr(pictures, "render", None)
     assert pictures.picture(planned, tmp_path / "kept") == (path, receipt)
 
@@ -60,10 +61,40 @@ def test_what_changes_the_picture_changes_its_key(scene: Path) -> None:
     assert pictures.shot("ball").key in keys
 
 
+def test_twice_the_pixels_across_have_the_same_light(scene: Path) -> None:
+    def planned(old: str, new: str) -> tuple[tuple[int, int], int]:
+        scene.write_text(SCENE.replace(old, new), encoding="utf-8")
+        shot = pictures.shot("ball")
+        return shot.size, shot.samples
+
+    assert planned("samples: 2", "samples: 64") == ((1200, 300), 16)
+    assert planned("samples: 2", "samples: 36, type: jittered") == ((1200, 300), 9)
+    assert planned("samples: 2", "samples: 20") == ((1200, 300), 5)
+    assert planned("width: 1200, height: 300", "width: 400, height: 300") == ((800, 600), 2)
+    # Small ones, and those whose pixels are looked at.
+    assert planned("width: 1200", "width: 300") == ((300, 300), 2)
+    more = "height: 300, subdivision: {}"
+    assert planned("height: 300", more)[0] == (600, 150)
+
+
+def test_pictures_take_the_place_of_grey_ones_while_others_are_made(tmp_path: Path) -> None:
+    site, file = tmp_path / "site", tmp_path / "made.webp"
+    (site / "_pictures").mkdir(parents=True)
+    grey = site / "_pictures" / "a.webp"
+    grey.write_bytes(b"grey")
+    file.write_bytes(b"colours")
+    place = Place("../", False, tmp_path, {}, site=site)
+    assert place.address("_pictures/a.webp", file) == "../_pictures/a.webp"
+    assert grey.read_bytes() == b"colours"
+    # What no page shows yet waits for its page.
+    place.address("_pictures/b.webp", file)
+    assert not (site / "_pictures" / "b.webp").exists()
+
+
 @pytest.mark.usefixtures("scene")
 def test_the_command_is_the_pictures() -> None:
     assert pictures.shot("ball").command == (
-        "course render scenes/ball.yaml --size 600x150 --spp 2 -o ball.png"
+        "course render scenes/ball.yaml --size 1200x300 --spp 2 -o ball.png"
     )
 
 

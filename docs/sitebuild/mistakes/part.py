@@ -31,20 +31,27 @@ def mistakes(place: Place, name: str, words: str = "") -> str:
             seen = look_at(name, each)
             row = rows.setdefault(seen, [(Figure(name, "", seen), None)])
             row.append((Figure(name, each, seen), bullet))
-    figures = [figure for row in rows.values() for figure, _ in row]
+    return "\n".join(_row(place, f"{name}, right and wrong", row) for row in rows.values())
+
+
+def right(place: Place, name: str, words: str) -> str:
+    """Show MODULE.FUNCTION as it should be; the words are those of its mistakes, beside which it is seen again."""
+    first = next(names[0] for _, names in of_bullets(name, words) if names)
+    return _row(place, f"{name}, right", [(Figure(name, "", look_at(name, first)), None)])
+
+
+def _row(place: Place, label: str, row: list[tuple[Figure, Bullet | None]]) -> str:
+    figures = [figure for figure, _ in row]
     if place.blank:
         files = {figure: (blank(figure, place.made / "mistakes"), "") for figure in figures}
     else:
         files = STUDIO.files(figures)
-    shown = []
-    for row in rows.values():
-        shown.append(f'<div class="mistakes" role="group" aria-label="{name}, right and wrong">\n')
-        for figure, bullet in row:
-            file, note = files[figure]
-            address = place.address(f"_mistakes/{figure.file}", file)
-            shown.append(_shown(figure, bullet, address, note))
-        shown.append("</div>\n")
-    return "\n".join(shown)
+    shown = [f'<div class="mistakes" role="group" aria-label="{label}">\n']
+    for figure, bullet in row:
+        file, note = files[figure]
+        address = place.address(f"_mistakes/{figure.file}", file)
+        shown.append(_shown(figure, bullet, address, note, alone=len(row) == 1))
+    return "\n".join([*shown, "</div>\n"])
 
 
 def of_bullets(name: str, words: str) -> list[tuple[Bullet, list[str]]]:
@@ -64,13 +71,16 @@ def of_bullets(name: str, words: str) -> list[tuple[Bullet, list[str]]]:
     ]
 
 
-def _shown(figure: Figure, bullet: Bullet | None, address: str, note: str) -> str:
+def _shown(
+    figure: Figure, bullet: Bullet | None, address: str, note: str, *, alone: bool = False
+) -> str:
     """One figure; its caption is Markdown between blank lines."""
     looked = look(figure.function, figure.seen)
     shows = looked.shows
     if bullet is None:
         kind, caption = "right", f"**Right.** {shows}."
-        alternative = f"{figure.function} as it should be. {shows}."
+        beside = "" if alone else ", beside its mistakes"
+        alternative = f"{figure.function} as it should be{beside}. {shows}."
     else:
         about = submission(figure.function, figure.name).about
         said = "" if about.strip(".").lower() == bullet.title.strip(".").lower() else f" {about}"

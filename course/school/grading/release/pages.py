@@ -37,7 +37,7 @@ def plain_pages(contents: Mapping[str, bytes]) -> dict[str, bytes]:
         what, command = _MADE_BY.get(kind, ("", ""))
         if what and (scene in contents or f"docs/notebooks/{name}.ipynb" in contents):
             return f"*[{what}: `{command.format(scene=scene, words=words, name=name)}`]*"
-        return f"*[On the course's site: {KINDS.get(kind, 'a figure')}.]*"
+        return f"*[On the course's site (`course docs`): {KINDS.get(kind, 'a figure')}.]*"
 
     def plain(page: str) -> str:
         return _DIRECTIVES.sub(

@@ -23,8 +23,8 @@ def test_what_a_command_can_make_is_told_with_it() -> None:
     assert "`course pixel scenes/ball.yaml 30,40 --html rays.html`" in rays
     assert "`course render scenes/ball.yaml`" in picture
     # Its scene isn't there.
-    assert away == "*[On the course's site: the rays of one pixel, in 3D.]*"
-    assert live == "*[On the course's site: a view with sliders.]*"
+    assert away == "*[On the course's site (`course docs`): the rays of one pixel, in 3D.]*"
+    assert live == "*[On the course's site (`course docs`): a view with sliders.]*"
 
 
 def test_functions_and_classes_are_described_without_sphinx() -> None:
