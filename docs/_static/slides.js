@@ -28,6 +28,12 @@
     return part;
   };
 
+  // What is folded on the page is shown, with what is right beside what is wrong.
+  const unfold = () => {
+    for (const alone of page.querySelectorAll(".mistakes.alone")) alone.remove();
+    for (const folded of page.querySelectorAll("details.deep")) folded.replaceWith(...[...folded.children].slice(1));
+  };
+
   const made = (title, whole) => ({ title, whole, shown: [], notes: [] });
   const large = (node) => node.matches(LARGE) || node.querySelector(LARGE);
 
@@ -128,6 +134,7 @@
   };
 
   const show = () => {
+    unfold();
     const slides = cut(page, []);
     const boxes = slides.map((slide, k) => drawn(slide, k + 1, slides.length));
     const deck = document.createElement("main");

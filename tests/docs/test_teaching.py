@@ -107,8 +107,9 @@ def test_a_page_begins_with_its_objectives(module: str, tmp_path: object) -> Non
             assert f"\n## {function}\n" in text
     assert f"{reading} minutes to read, about {writing} to write (an estimate)" in before
     assert f"{rendering} to render" in before
-    first, task, *_ = before.partition("\n## ")[0].split("\n\n")[1:]
-    assert "You write" in first or len(first) < 400
+    lead, task = before.partition("**To write**")[::2]
+    assert len(lead) < 1000
+    task = task.partition("\n")[0]
     assert all(f"[{function}](#{function})" in task for function in COURSE[module])
     assert f"`course check {module}`" in task
 

@@ -46,7 +46,8 @@ def _row(place: Place, label: str, row: list[tuple[Figure, Bullet | None]]) -> s
         files = {figure: (blank(figure, place.made / "mistakes"), "") for figure in figures}
     else:
         files = STUDIO.files(figures)
-    shown = [f'<div class="mistakes" role="group" aria-label="{label}">\n']
+    kind = "mistakes alone" if len(row) == 1 else "mistakes"
+    shown = [f'<div class="{kind}" role="group" aria-label="{label}">\n']
     for figure, bullet in row:
         file, note = files[figure]
         address = place.address(f"_mistakes/{figure.file}", file)
