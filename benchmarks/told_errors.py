@@ -15,7 +15,7 @@ from benchmarks.figures import Figure, summary
 from benchmarks.reached_error import CASES, Effort, Runs, measure
 from course.benchmarking.tables import Table, print_tables
 
-EFFORT = Effort(height=72, seeds=8)
+EFFORT = Effort(height=72, seeds=8, reference=2048)
 
 NEAR = 0.1
 """What is told shall be within this share of what is reached."""
@@ -86,7 +86,11 @@ def table(found: Sequence[Runs]) -> Table:
 def main(names: tuple[str, ...], seeds: int, height: int) -> None:
     """Do what the command line asks for."""
     effort = Effort(height, seeds, EFFORT.reference, names or EFFORT.names)
-    for figure in figures([measure(name, effort) for name in effort.names]):
+    found = []
+    for name in effort.names:
+        found.append(measure(name, effort))
+        click.echo(f"{name}: {near(found[-1:]):.0%} within {NEAR:.0%}", err=True)
+    for figure in figures(found):
         click.echo(f"{figure.name}: {figure.value:.3f} (goal {figure.goal:g})")
 
 

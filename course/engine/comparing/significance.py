@@ -4,9 +4,9 @@ How noisy a pixel is nobody says, and its neighbour may be a hundred times as no
 mean, noise makes a pixel of the first brighter as often as darker. So what is tested are signs: whether they agree in
 a window more than chance allows (``course.engine.comparing.windows``), be they those of the difference itself, or of
 its product with the picture's slopes, which a movement or a blur turns all one way
-(``course.engine.comparing.fields``). Windows have all sizes from 8 pixels to the whole picture, and each row and column
-is one, too (``course.engine.comparing.lines``). What is smaller is found by how it stands out
-(``course.engine.comparing.spots``).
+(``course.engine.comparing.fields``). Windows have all sizes from 8 pixels to the whole picture; for movements along
+them, rows and columns are windows, too (``course.engine.comparing.lines``). What is smaller is found by how it stands
+out (``course.engine.comparing.spots``).
 
 p-values are corrected for the numbers of windows, sizes, fields and shapes of spots (Bonferroni).
 """
@@ -113,7 +113,7 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
     some = pair.sample()
     level, normal = level_of(some), usual(some)
     z = np.zeros((len(SHAPES), *pair.usable.shape))
-    cells, lines = list[Floats64](), Lines(*pair.usable.shape)
+    cells, lines = list[Floats64](), Lines()
     patches: list[list[tuple[float, int, int]]] = []
     signs: list[Mask] = []
     for part, own, rows in pair.strips(grid):

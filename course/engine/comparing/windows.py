@@ -166,12 +166,9 @@ class Field:
         """Sums over cells of some rows (4, down, across): of the values, their squares, and the two others."""
         return np.stack([grid.cells(one[rows]) for one in self._parts])
 
-    def lines(self, rows: slice) -> tuple[Floats64, Floats64]:
-        """The same sums over each of some rows, (4, rows), and over each column in these rows, (4, W)."""
-        parts = [one[rows] for one in self._parts]
-        return np.stack([one.sum(axis=1) for one in parts]), np.stack(
-            [one.sum(axis=0) for one in parts]
-        )
+    def lines(self, rows: slice, axis: int) -> Floats64:
+        """The same sums along one axis of some rows, (4, n)."""
+        return np.stack([one[rows].sum(axis=axis) for one in self._parts])
 
     @property
     def _parts(self) -> tuple[Floats64, ...]:

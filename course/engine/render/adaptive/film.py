@@ -164,7 +164,9 @@ class AdaptiveFilm:
         return self._surplus(self.believed)
 
     def _surplus(self, believed: Floats32) -> float:
-        few = believed.reshape(-1)[self.foreseen].astype(np.float64)
+        if self._prior is None:
+            return 1.0
+        few = believed.reshape(-1)[self._prior.pixels].astype(np.float64)
         whole = float(believed.sum(dtype=np.float64))
         return 1 + 2 * float((few * few).sum()) / whole**2 if len(few) and whole else 1.0
 
@@ -179,16 +181,21 @@ class AdaptiveFilm:
 
         These are divided by what others are multiplied with: audits judge those alone.
         """
-        pixels, lacking = self._lacking()
-        if self._prior is None and not len(pixels):
+        (foreseen, known), (pixels, lacking) = self._known(), self._lacking()
+        if not len(foreseen) and not len(pixels):
             return self.variance
         result = self.variance.copy()
         by_all = self.correction * self._spread
-        if self._prior is not None:
-            known = self._prior.believed(self.variance, self.samples)
-            result.reshape(-1)[self._prior.pixels] = known / by_all
+        result.reshape(-1)[foreseen] = known / by_all
         result.reshape(-1)[pixels] += lacking / by_all
         return result
+
+    def _known(self) -> tuple[Indices, Floats64]:
+        """Pixels (m,) whose prior is in force, and their variances (m,) by it."""
+        if self._prior is None:
+            return np.empty(0, np.intp), np.empty(0)
+        some = self._prior.in_force(self.samples)
+        return self._prior.pixels[some], self._prior.believed(self.variance, self.samples)[some]
 
     def _lacking(self) -> tuple[Indices, Floats32]:
         """Pixels (m,) beside which an edge may be unseen, and what that adds to their variance (m,).
@@ -201,8 +208,10 @@ class AdaptiveFilm:
 
     @property
     def foreseen(self) -> Indices:
-        """(m,) the pixels that have a prior."""
-        return np.empty(0, np.intp) if self._prior is None else self._prior.pixels
+        """(m,) the pixels that have a prior in force: the others tell their error by themselves, and to audits."""
+        if self._prior is None:
+            return np.empty(0, np.intp)
+        return self._prior.pixels[self._prior.in_force(self.samples)]
 
     @property
     def unforeseen(self) -> Floats32:
@@ -259,12 +268,13 @@ class AdaptiveFilm:
             self._begun = True
         self.order = order
         variance, cost = self._smoothed(order, self._without_finds())
-        variance.reshape(-1)[self.foreseen] = 0
+        if self._prior is not None:
+            pixels = self._prior.pixels
+            variance.reshape(-1)[pixels] = self.unforeseen.reshape(-1)[pixels]
         own = float(self.unforeseen.sum(dtype=np.float64))
         self._spread = float(variance.sum(dtype=np.float64)) / own if own else 1.0
-        if self._prior is not None:
-            known = self._prior.believed(self.variance, self.samples)
-            variance.reshape(-1)[self.foreseen] = known / self.correction
+        foreseen, known = self._known()
+        variance.reshape(-1)[foreseen] = known / self.correction
         self._edges = unseen_edges(self.linear, self.variance, self.samples)
         pixels, lacking = self._lacking()
         variance.reshape(-1)[pixels] += lacking / self.correction
@@ -275,7 +285,7 @@ class AdaptiveFilm:
         if self._prior is None:
             return self.variance
         result = self.variance.copy()
-        result.reshape(-1)[self.foreseen] = self._prior.others(self.variance, self.samples)
+        result.reshape(-1)[self._prior.pixels] = self._prior.others(self.variance, self.samples)
         return result
 
     def _smoothed(self, order: float, variance: Floats32) -> tuple[Floats32, Floats32]:

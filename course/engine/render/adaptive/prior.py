@@ -8,11 +8,11 @@ that is more. This is what is expected given the samples, so it holds whatever h
 
 import numpy as np
 
-from course.engine.core.types import Floats32, Floats64, Indices, Numbers
+from course.engine.core.types import Floats32, Floats64, Indices, Mask, Numbers
 from course.engine.render.adaptive.glimpses import Chances
 
 SURE = 5.0
-"""A thing's finds, as expected, after which what is known counts e times less."""
+"""A thing's finds, as expected, after which what is known would count e times less, and counts for nothing."""
 
 MATTERS = 0.02
 """A pixel has a prior where its variance, by four samples, is more than so much of the mean that is aimed at."""
@@ -36,6 +36,11 @@ class Prior:
         self._chance: Floats64 = np.minimum(mean * mean / square, 1)
         self._variance: Floats64 = np.maximum(square - mean * mean, 0)
         self._around = _around(pixels, *chances.mean.shape)
+
+    def in_force(self, samples: Numbers) -> Mask:
+        """Which of its pixels (m,) should have found what is known fewer than SURE times."""
+        sure: Mask = samples.reshape(-1)[self.pixels] * self._chance < SURE
+        return sure
 
     def believed(self, variance: Floats32, samples: Numbers) -> Floats64:
         """Variances (m,) of its pixels, by theirs (H, W) and by what is known."""

@@ -382,3 +382,21 @@ def test_films_with_a_prior_are_the_same_in_both_forms() -> None:
             told.append([part.tobytes() for part in film.end_round()])
         assert told[0] == told[1]
         assert films[0].told == films[1].told > 0
+
+
+def test_a_pixel_that_should_have_found_its_thing_is_judged_by_its_samples() -> None:
+    """Half of the samples find it: 4 twice, which is too few, and 12 six times."""
+    mean, square = np.zeros((2, 6, 8))
+    mean[2, 3], square[2, 3] = 5.0, 50.0
+    film = AdaptiveFilm(8, 6, True, Prior(Chances(mean, square), 1e-3))
+    group = PixelGroup(0, np.arange(48), 8)
+    parts = np.tile(np.float32([0, 10, 10, 0]), (4, 48))
+    film.add(group, parts, 1.0, 4, True)
+    film.end_round()
+    assert film.foreseen.tolist() == [2 * 8 + 3]
+    assert film.unforeseen[2, 3] == 0
+    film.add(group, parts, 1.0, 12, True)
+    variance, _ = film.end_round()
+    assert film.foreseen.size == 0
+    assert film.unforeseen[2, 3] == film.believed[2, 3] == film.variance[2, 3] > 0
+    assert variance[2, 3] == film.variance[2, 3]
