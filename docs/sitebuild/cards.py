@@ -52,6 +52,9 @@ def _small(place: Place, planned: pictures.Shot, alternative: str) -> str:
     if place.blank:
         webp.save_blank(file, size)
     else:
-        with Image.open(pictures.picture(planned)[0]) as whole:
+        large, _ = pictures.picture(planned)
+        # It may be on no other page, and is needed for the next build.
+        place.kept.add(large)
+        with Image.open(large) as whole:
             webp.save(whole.resize(size, Image.Resampling.LANCZOS), file, pictures.QUALITY)
     return tag(place.address(f"_cards/{planned.file}", file), alternative, size)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 
 from course.cli.main import commands
 from course.engine.functions.modules import COURSE, TAUGHT
@@ -24,6 +25,25 @@ def test_cards_say_how_long_it_takes_and_after_what(site: Path) -> None:
     assert "You write the functions that choose points on a light" in card[1]
     assert re.search(r"long: \d+ \+ 150 minutes, after sampling and supersampling", card[1])
     assert "<img" in card[1]
+
+
+def test_a_card_has_a_small_picture_and_keeps_the_large_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
+    from sitebuild import cards, pictures
+    from sitebuild.place import Place
+
+    planned = pictures.shot("film")
+    large = tmp_path / "large.webp"
+    Image.new("RGB", planned.size).save(large)
+    monkeypatch.setattr(pictures, "picture", lambda _: (large, {}))
+    place = Place("", False, tmp_path, {})
+    shown = cards._small(place, planned, "Film")
+    assert 'width="480" height="240"' in shown
+    with Image.open(place.files["_cards/film.webp"]) as image:
+        assert image.size == (480, 240)
+    assert place.kept == {large}
 
 
 def test_status_lists_modules_in_the_order_of_the_cards(
