@@ -135,7 +135,9 @@ def test_a_notebook_that_was_run_is_used(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr(notebook, "executed", lambda _: run)
     monkeypatch.setattr(kept, "ROOT", tmp_path)
     site = parts.Site(
-        SimpleNamespace(doctreedir=tmp_path, config=SimpleNamespace(pictures="render"))
+        SimpleNamespace(
+            doctreedir=tmp_path, outdir=tmp_path, config=SimpleNamespace(pictures="render")
+        )
     )
     text = site.expanded("guides/notebook", "<!-- site: notebook first_look -->\n")
     assert "```python" in text
