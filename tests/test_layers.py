@@ -35,7 +35,7 @@ FLOORS = {
         {"scattering"},
         {"environments", "lights"},
         {"paths", "shafts", "world"},
-        {"media"},
+        {"media", "photons"},
         {"plan"},
     ],
     "course.school": [{"grading"}, {"notebooks", "quizzes", "studio"}],

@@ -53,6 +53,7 @@ MAY_DIFFER = {
     "film": r"film\.(tone\..*|gamut|dither)",
     "path_tracing": r"integrator\.type",
     "media": r"media\..*",
+    "photon_mapping": r"photons\..*",
 }
 
 # What the scenes of further modules call; the six core ones choose among theirs.
@@ -73,6 +74,7 @@ CALLS = {
     "many_lights": "light_tree power_choice tree_choice",
     "path_tracing": "diffuse_bounce russian_roulette throughput",
     "media": "equiangular henyey_greenstein in_scattering transmittance",
+    "photon_mapping": "cone_weights emit_cone roulette shrunk_radius stored",
 }
 
 

@@ -138,8 +138,7 @@ def recorded(tracer: Tracer, recorder: Recorder, shafts: bool = False) -> Tracer
         direct = sparing(tracer).integrator.direct if shafts else None
         recorder.shafts = None if direct is None else direct.spare
         seen = {"surface": type(integrator.surface)(**seen), "spare": None}
-        if (sky := integrator.direct.sky) is not None:
-            seen["sky"] = _as(RecordedSky, sky, recorder, surface=seen["surface"])
+        seen["sky"] = _sky(integrator.direct.sky, recorder, seen["surface"])
         choice = getattr(integrator.direct, "choice", None)
         if choice is not None:
             # Each light by itself, so that its rays have its name.
@@ -156,6 +155,13 @@ def recorded(tracer: Tracer, recorder: Recorder, shafts: bool = False) -> Tracer
         noted = _as(RecordedPainting, painting, recorder)
         changed["surface"] = replace(surface, painting=noted)
     return replace(tracer, integrator=_as(RecordedIntegrator, integrator, recorder, **changed))
+
+
+def _sky(sky: Any, recorder: Recorder, surface: Any) -> Any:
+    """What tells of light from the environment, and in a term that adds to it, too."""
+    if sky is None or isinstance(sky, Sky):
+        return None if sky is None else _as(RecordedSky, sky, recorder, surface=surface)
+    return replace(sky, sky=_sky(sky.sky, recorder, surface))
 
 
 def _as(kind: type, stage: Any, recorder: Recorder, **changed: Any) -> Any:

@@ -1222,6 +1222,50 @@ class MediumDescription(Map, frozen=True, kw_only=True):
     noise: Annotated[DensityNoise | None, about("Densities by noise, from 0 to 1.")] = None
 
 
+class PhotonsDescription(Map, frozen=True, kw_only=True):
+    """Caustics by photons: light of lamps that mirrors and glass send to matte surfaces, beside direct light."""
+
+    count: Annotated[
+        int,
+        about(
+            "Photons that leave the lamps in each pass. A million take about two seconds.",
+            ge=1,
+            le=10**9,
+        ),
+    ] = 200_000
+    samples: Annotated[
+        int,
+        about(
+            "Samples of a pixel that share a pass: the next ones have new photons.", ge=1, le=2**20
+        ),
+    ] = 16
+    radius: Annotated[
+        _Positive | None,
+        about(
+            "Radius of the first pass in which photons are looked for around a point; null for a twentieth of that of a"
+            " ball around all mirrors and glass.",
+            "world unit",
+        ),
+    ] = None
+    alpha: Annotated[
+        float,
+        about(
+            "How slowly the radius shrinks from pass to pass: at 1 it stays, and the smaller alpha, the sharper and"
+            " noisier later passes are.",
+            ge=0.001,
+            le=1,
+        ),
+    ] = 2 / 3
+    cone: Annotated[
+        float,
+        about(
+            "How flat the filter is: at 1 photons at the radius count nothing, and at 1000 as much as near ones.",
+            ge=1,
+            le=1000,
+        ),
+    ] = 1.1
+
+
 class AccelerationDescription(Map, frozen=True, kw_only=True):
     """Who answers the rays: the picture is the same, the time is not."""
 
@@ -1286,3 +1330,7 @@ class SceneDescription(Map, frozen=True, kw_only=True):
     media: Annotated[
         tuple[MediumDescription, ...], about("What fills space; boxes must not overlap.")
     ] = ()
+    photons: Annotated[
+        PhotonsDescription | None,
+        about("Caustics by photons; null for none. Not in fog."),
+    ] = None
