@@ -45,13 +45,11 @@ def compiled(
     lights = tuple(light for light in world.lights if can_emit(light))
     target = _target(world, optical)
     if target is None or not lights or not materials.diffuses.any():
-        nothing = (
-            "nothing mirrors or refracts"
-            if target is None
-            else "no light sends any"
-            if not lights
-            else "nothing is matte"
-        )
+        nothing = "no light sends any"
+        if target is None:
+            nothing = "nothing mirrors or refracts"
+        elif not materials.diffuses.any():
+            nothing = "nothing is matte"
         _tell(loaded, f"{nothing}: there are no caustics, and no photons are sent")
         return world
     _tell_what_is_left_out(loaded, world)
