@@ -31,6 +31,7 @@ from benchmarks.microfacets import measure_microfacets
 from benchmarks.multiple_importance import measure_multiple_importance
 from benchmarks.own_functions import measure_own_functions
 from benchmarks.path_tracing import measure_path_tracing
+from benchmarks.photon_mapping import measure_photon_mapping
 from benchmarks.process import measure_processes
 from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
 from benchmarks.radiosity import measure_radiosity
@@ -69,6 +70,7 @@ MEASURES = {
     "environment_light": measure_environment_light,
     "microfacets": measure_microfacets,
     "media": measure_media,
+    "photon_mapping": measure_photon_mapping,
     "many_lights": measure_many_lights,
     "denoising": measure_denoising,
     "quasi_monte_carlo": measure_quasi_monte_carlo,

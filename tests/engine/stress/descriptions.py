@@ -199,6 +199,10 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
         fog["box"] = [list(corner) for corner in zip(*map(sorted, corners), strict=True)]
         if fog.get("grid") is not None:
             fog.pop("noise", None)
+    if description.get("media"):
+        description.pop("photons", None)
+    if description.get("photons") is not None:
+        description["photons"]["count"] = min(description["photons"].get("count", 1000), 1000)
     things = [*description["objects"], *description["lights"]]
     if any(any(thing.get("motion", {}).get("velocity", [])) for thing in things):
         # A hierarchy holds what stands still.
