@@ -202,7 +202,7 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     if description.get("media"):
         description.pop("photons", None)
     if description.get("photons") is not None:
-        description["photons"]["count"] = min(description["photons"].get("count", 1000), 1000)
+        description["photons"]["count"] = min(description["photons"].get("count", 1000), 999)
     things = [*description["objects"], *description["lights"]]
     if any(any(thing.get("motion", {}).get("velocity", [])) for thing in things):
         # A hierarchy holds what stands still.

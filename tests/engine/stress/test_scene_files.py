@@ -71,7 +71,9 @@ def outcome(content: str, folder: Path) -> str:
     settings = scene.settings
     # Where the file leaves them out, or has been spoilt there, they would cost too much.
     size, spp = (min(settings.width, 5), min(settings.height, 4)), min(settings.samples, 16)
-    with suppress(CourseError):
+    with suppress(CourseError), warnings.catch_warnings():
+        # Of photons that find no way, which is told by those that were sent.
+        warnings.simplefilter("ignore", CourseWarning)
         # Refused for its settings, which may as well come from the command line.
         return judged(render(scene, size=size, spp=spp, threads=1).linear)
     return "refused"
