@@ -163,6 +163,8 @@ def export(scene: Scene, width: int, height: int, finer: int = LAT_LONG_COLUMNS)
     lit = set(columns.of_lights.values())
     if description.media:
         raise NotExportableError("media are not exported")
+    if description.photons:
+        raise NotExportableError("photons are not exported")
     _refuse_others(description.camera, "camera")
     _refuse_others(description.environment, "environment")
     for number, light in enumerate(description.lights):

@@ -17,6 +17,7 @@ def check_accepted(loaded: Loaded) -> None:
     """
     scene, whole = loaded.description, Place(loaded.document)
     whole.check(not scene.media, "media", "none: radiosity knows light between surfaces alone")
+    whole.check(scene.photons is None, "photons", "null: radiosity has no mirrors and no glass")
     used = sorted({thing.material for thing in scene.objects})
     for name in used:
         _check_material(scene.materials[name], whole.at("materials", name))

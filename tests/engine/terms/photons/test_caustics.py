@@ -16,6 +16,7 @@ from course.engine.core.rays import Draws
 from course.engine.core.samplers import Block
 from course.engine.core.types import Floats64
 from course.engine.functions.effects import Bound
+from course.engine.radiosity.accepting import check_accepted
 from course.engine.render.binding import bind
 from course.engine.scene.scene import Scene
 from course.engine.terms.photons.emission import WIDTH, Target, leaving
@@ -325,6 +326,12 @@ def test_photons_in_fog_are_refused(make_scene: MakeScene) -> None:
             lights=[GLOBE],
             media=[{"extinction": 1, "box": [[-1, 0, -1], [1, 1, 1]]}],
         )
+
+
+def test_radiosity_refuses_photons(make_scene: MakeScene) -> None:
+    scene = caustics(make_scene, {"color": 0, "mirror": 1}, lights=[GLOBE])
+    with pytest.raises(SceneError, match=r"photons.*null: radiosity has no mirrors"):
+        check_accepted(scene.loaded)
 
 
 def test_photons_without_a_way_to_the_floor_are_told(make_scene: MakeScene) -> None:
