@@ -10,15 +10,15 @@ from benchmarks.reached_error import CASES, QUICK, Effort, Runs, error_of, figur
 from course.benchmarking.references import Reference
 
 
-def test_270_runs_over_27_scenes() -> None:
-    assert len(CASES) == 27
-    assert Effort().seeds * len(Effort().names) == 270
+def test_300_runs_over_30_scenes() -> None:
+    assert len(CASES) == 30
+    assert Effort().seeds * len(Effort().names) == 300
     assert set(QUICK.names) <= set(CASES)
     assert all(path.is_file() for path, _ in CASES.values())
 
 
 def test_runs_are_near_on_both_sides() -> None:
-    runs = Runs("x", 2.0, (2.0,) * 4, (1.7, 1.9, 2.1, 2.3), (8.0,) * 4)
+    runs = Runs("x", 2.0, (2.0,) * 4, (1.7, 1.9, 2.1, 2.3), (8.0,) * 4, bounded=True)
     assert near([runs]) == 0.5
     assert runs.apart == pytest.approx([2 / 1.7, 2 / 1.9, 1.05, 1.15])
     share, one = figures([runs])
