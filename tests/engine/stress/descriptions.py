@@ -92,6 +92,8 @@ def _struct(kind: inspect.StructType) -> Strategy:
         # Always there, or there would be nothing to see.
         for key in ("film", "sampler", "integrator", "materials", "objects", "lights"):
             required[key] = optional.pop(key)
+    # No picture that scenes may name has layers: another layer is refused.
+    optional.pop("layer", None)
     for key in {"width", "height", "samples", "segments"} & set(optional):
         # Their defaults cost too much.
         required[key] = optional.pop(key)
@@ -152,7 +154,7 @@ def _text(key: str) -> Strategy:
 def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     """What takes more than one key to be right, mostly put right."""
     materials = description["materials"]
-    clear = [name for name in MATERIALS if materials[name].get("dielectric")]
+    clear = [name for name in MATERIALS if materials[name].get("dielectric") is not None]
     for name in clear:
         # The name of another dielectric, and none goes around itself.
         outer = materials[name]["dielectric"].pop("surrounded_by", None)

@@ -49,6 +49,9 @@ def foresee(job: Job, error: float) -> Foresight:
         compile_camera(loaded, job.scene.compiled.frame, width, height), lens=world.lens
     )
     view = CameraAxes.of(camera, world, width, height)
+    if not view.pixel:
+        # Of an angle so small that float32 has no steps, all pixels see one point.
+        return Foresight()
     chances = glimpses(world, view, things, parts, target)
     reflections = Reflections(world, view, things, parts, target, settings.max_depth)
     chances += reflections.chances()

@@ -290,6 +290,14 @@ def small_ball(make_scene: MakeScene, *others: dict[str, Any], **parts: Any) -> 
     return scene_of(make_scene, materials=materials, objects=[ball(at, 0.015), *others], **parts)
 
 
+def test_where_all_pixels_look_one_way_nothing_is_foreseen(make_scene: MakeScene) -> None:
+    """Of so small an angle float32 has no steps from pixel to pixel."""
+    camera = {"eye": [0, 0, DISTANCE], "look_at": [0, 0, 0], "vertical_fov": 1e-60}
+    scene = small_ball(make_scene, camera=camera)
+    assert seen_ahead(scene, 0.01).prior is None
+    assert np.isfinite(render(scene, spp=16, error=0.1).linear).all()
+
+
 def test_chances_add_up_to_the_ball(make_scene: MakeScene) -> None:
     scene = small_ball(make_scene)
     world = scene.compiled.world
