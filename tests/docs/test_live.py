@@ -185,7 +185,8 @@ def test_without_webgl_the_page_has_its_other_pictures(browser: Any, site: Path)
 
 def test_a_phone_is_wide_enough(browser: Any, site: Path) -> None:
     with untroubled(browser, alone=True, viewport={"width": 390, "height": 800}) as page:
-        # In their full size.
+        # In their full size, which takes long without a graphics card.
+        page.set_default_timeout(300_000)
         script = (PROJECT / "docs" / "_static" / "live.js").read_text(encoding="utf-8")
         page.route(
             re.compile(r"/live\.js"),
