@@ -103,8 +103,9 @@ def test_random_scenes_render_finite_or_are_refused_by_their_line(folder: Path) 
 
     check()
     # Many are rendered and show something, and everything occurs; or this would say little. Three of five are rendered,
-    # but Hypothesis draws constants of whatever modules are loaded, so the sixty aren't always the same.
-    assert found.count("seen") + found.count("black") > len(found) / 3
+    # but Hypothesis draws constants of whatever modules are loaded, so the sixty aren't always the same: a quarter or
+    # fewer of them are rendered less often than once in a million.
+    assert found.count("seen") + found.count("black") > len(found) / (3 if LONG else 4)
     # Of sixty, drawn otherwise after any change of the sources, fewer may happen to be seen than of many.
     assert found.count("seen") > len(found) / (3 if LONG else 6)
     everything = {kind.__struct_config__.tag for kind in (*get_args(Object), *get_args(Light))}
