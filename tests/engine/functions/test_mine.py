@@ -191,7 +191,7 @@ def test_what_the_renderer_calls_has_a_stand_in() -> None:
 
 
 @pytest.mark.usefixtures("unsolved")
-@pytest.mark.parametrize("name", ["gallery/everything", "glossy"])
+@pytest.mark.parametrize("name", ["gallery/everything", "glossy", "photon_mapping"])
 def test_without_solutions_unwritten_functions_have_no_effect(name: str) -> None:
     effects = Effects()
     assert effects.mixed

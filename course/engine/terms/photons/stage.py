@@ -184,7 +184,8 @@ class Caustics:
         photons = joined(kept)
         if sent < rounds:
             photons = replace(photons, power=photons.power * np.float32(rounds / sent))
-        if not photons.count and not self.told:
+        # Lamps without any power send none.
+        if total and not photons.count and not self.told:
             self.told.append(True)
             warnings.warn(
                 f"{self.stage.where}: none of {total:,} photons has come to a matte surface by way of a mirror or"
