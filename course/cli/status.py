@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from course.cli.options import folder_option, modules_argument
+from course.engine.functions.modules import COURSE, TAUGHT
 
 if TYPE_CHECKING:
     from course.school.grading.progress import FunctionProgress
@@ -25,7 +26,6 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
     Files that have changed since they were checked last are checked; what was found is kept in
     the folder, in .course/checked.json.
     """
-    from course.engine.functions.modules import TAUGHT
     from course.engine.functions.sources import told_place
     from course.school.grading.progress import as_data, next_one, progress
 
@@ -91,8 +91,6 @@ def _row(functions: list[FunctionProgress]) -> tuple[str, str, str, str]:
         if begun
         else "to do"
     )
-    from course.engine.functions.modules import COURSE
-
     module = functions[0].module
     name = module if module in COURSE else "all together"
     return name, state, f"{right} of {len(functions)}", _points(functions)
@@ -105,8 +103,6 @@ def _points(functions: list[FunctionProgress]) -> str:
 
 
 def _total(functions: list[FunctionProgress]) -> str:
-    from course.engine.functions.modules import COURSE
-
     own = [one for one in functions if one.module in COURSE]
     right = sum(one.state == "right" for one in own)
     return f"{right} of {len(own)} functions are right, {_points(functions)} points"

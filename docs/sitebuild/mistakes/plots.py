@@ -44,6 +44,17 @@ def plot(draw: Plot, *, curve: bool = False) -> Draw:
     return partial(_plotted, draw, curve)
 
 
+def drawn(x: Array, value: Callable[[ModuleType], Array], name: str) -> Draw:
+    """Curves of values (N,) or (k, N) that a module makes over x (N,), above those of the right one; ``name``: of x."""
+
+    def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+        for row, below in zip(np.atleast_2d(value(made)), np.atleast_2d(value(right)), strict=True):
+            curves(axes, x, row, below)
+        label(axes, name)
+
+    return plot(draw, curve=True)
+
+
 def is_plot(draw: Draw) -> bool:
     """True if a ``Draw`` makes a plot, and no picture."""
     return getattr(draw, "func", None) is _plotted

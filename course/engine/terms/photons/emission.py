@@ -16,6 +16,7 @@ from course.engine.core.lights.sphere import SphereLight
 from course.engine.core.types import Floats32, Functions, Mask
 from course.engine.core.vectors import gather
 from course.engine.terms.lights.mesh_light import MeshLight
+from course.engine.terms.lights.sampled import SampledSphereLight
 from course.engine.terms.lights.spot_light import SpotLight
 from course.engine.terms.lights.visible_sphere import VisibleSphereLight
 
@@ -24,7 +25,7 @@ WIDTH = 6
 
 EMITTERS = (
     *(PointLight, SpotLight, DirectionalLight, RectangleLight, SphereLight),
-    *(VisibleSphereLight, MeshLight),
+    *(SampledSphereLight, VisibleSphereLight, MeshLight),
 )
 """Lights that photons leave. A light of another type isn't known, though it were derived of one of these."""
 
@@ -48,9 +49,7 @@ class Target:
 
 def can_emit(light: Light) -> bool:
     """Whether it is known where photons leave a light."""
-    return type(light) in EMITTERS or (
-        isinstance(light, SphereLight) and type(light).__name__ == "SampledSphereLight"
-    )
+    return type(light) in EMITTERS
 
 
 def functions_for(lights: tuple[Light, ...]) -> set[str]:

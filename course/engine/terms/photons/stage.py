@@ -101,6 +101,11 @@ class Caustics:
     told: list[bool] = field(default_factory=list)
 
     @cached_property
+    def radii(self) -> list[Floats32]:
+        """Those of the first passes, (1,) each, as far as any was asked for."""
+        return [np.full(1, self.stage.settings.radius, np.float32)]
+
+    @cached_property
     def maps(self) -> Maps:
         """The passes."""
         return Maps(self._made)
@@ -157,12 +162,8 @@ class Caustics:
 
     def _made(self, number: int, draws: Draws) -> PhotonMap:
         """The photons of a pass."""
-        settings = self.stage.settings
-        radius, module = np.full(1, settings.radius, np.float32), self.stage.module
-        for i in range(1, number + 1):
-            radius = module.shrunk_radius(radius, np.array([i]), settings.alpha)
-        seed = seed_of(draws)
-        counts, sent, kept = self._shared(), 0, list[Photons]()
+        seed, radius = seed_of(draws), self._radius(number)
+        counts, sent, kept = self._shares, 0, list[Photons]()
         total = sum(counts)
         starts = np.cumsum([0, *counts]).tolist()
         stored = 0
@@ -193,9 +194,17 @@ class Caustics:
                 CourseWarning,
                 stacklevel=2,
             )
-        return PhotonMap.of(photons, float(radius[0]))
+        return PhotonMap.of(photons, radius)
 
-    def _shared(self) -> list[int]:
+    def _radius(self, number: int) -> float:
+        """The radius of a pass; passes are made one at a time."""
+        while len(self.radii) <= number:
+            i, alpha = np.array([len(self.radii)]), self.stage.settings.alpha
+            self.radii.append(self.stage.module.shrunk_radius(self.radii[-1], i, alpha))
+        return float(self.radii[number][0])
+
+    @cached_property
+    def _shares(self) -> list[int]:
         """How many photons leave each light: as many as it sends power to the mirrors and the glass."""
         u = spread(0, 0, 0, TRIED, WIDTH)
         power = []

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sitebuild.mistakes.look import Draw, Look
-from sitebuild.mistakes.plots import Array, curves, histogram, label, plot
+from sitebuild.mistakes.look import Look
+from sitebuild.mistakes.plots import Array, drawn, histogram, label, plot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,17 +16,6 @@ if TYPE_CHECKING:
 SIGMA, WEIGHTS = np.array([0.4, 1.0, 2.4]), np.array([0.5, 0.3, 0.2])
 
 DENSITIES = np.array([0.2, 1.6, 0.4, 1.2]).reshape(4, 1, 1)
-
-
-def _drawn(x: Array, value: Callable[[ModuleType], Array], name: str) -> Draw:
-    """Curves (N,) or (k, N) of a module over those of the right one."""
-
-    def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-        for row, below in zip(np.atleast_2d(value(made)), np.atleast_2d(value(right)), strict=True):
-            curves(axes, x, row, below)
-        label(axes, name)
-
-    return plot(draw, curve=True)
 
 
 T = np.linspace(0, 4, 161)
@@ -144,22 +132,22 @@ LOOKS = {
     "transmittance": (
         Look(
             f"The shares of three channels; {_GREY}",
-            _drawn(T, lambda m: m.transmittance(SIGMA, T), "distance"),
+            drawn(T, lambda m: m.transmittance(SIGMA, T), "distance"),
         ),
     ),
     "free_flight": (
         Look(
             f"Distances of red and of blue by u[1]; {_GREY}",
-            _drawn(U, _flights, "the number u[1]"),
+            drawn(U, _flights, "the number u[1]"),
         ),
         Look(
             f"Distances of a channel that isn't stopped, cut off at 5; {_GREY}",
-            _drawn(U, _one_clear, "the number u[1]"),
+            drawn(U, _one_clear, "the number u[1]"),
             ("flight_never_ends",),
         ),
         Look(
             f"Distances for the same u[1] by u[0]; {_GREY}",
-            _drawn(
+            drawn(
                 U,
                 lambda m: m.free_flight(SIGMA, WEIGHTS, np.stack((U, np.full_like(U, 0.6)))),
                 "the number u[0]",
@@ -170,13 +158,13 @@ LOOKS = {
     "free_flight_pdf": (
         Look(
             f"The density; {_GREY}",
-            _drawn(T, lambda m: m.free_flight_pdf(SIGMA, WEIGHTS, T), "distance"),
+            drawn(T, lambda m: m.free_flight_pdf(SIGMA, WEIGHTS, T), "distance"),
         ),
     ),
     "henyey_greenstein": (
         Look(
             f"The phase function for g = 0.5; {_GREY}",
-            _drawn(COS, lambda m: m.henyey_greenstein(COS, 0.5), "cosine: 1 is straight on"),
+            drawn(COS, lambda m: m.henyey_greenstein(COS, 0.5), "cosine: 1 is straight on"),
         ),
     ),
     "sample_henyey_greenstein": (
@@ -193,7 +181,7 @@ LOOKS = {
         ),
         Look(
             f"The density that is returned; {_GREY}",
-            _drawn(U, _densities, "the number u[0]"),
+            drawn(U, _densities, "the number u[0]"),
             ("scatter_pdf_of_cosine",),
         ),
     ),
@@ -203,19 +191,19 @@ LOOKS = {
     "ratio_tracking": (
         Look(
             f"The mean share that gets through uneven fog; {_GREY}",
-            _drawn(LIMITS, _shares, "limit"),
+            drawn(LIMITS, _shares, "limit"),
         ),
     ),
     "equiangular": (
         Look(
             f"Distances and densities by u; {_GREY}",
-            _drawn(U, _places, "the number u"),
+            drawn(U, _places, "the number u"),
         ),
     ),
     "in_scattering": (
         Look(
             f"What is added in three channels; {_GREY}",
-            _drawn(T, _added, "distance from the eye"),
+            drawn(T, _added, "distance from the eye"),
         ),
     ),
 }

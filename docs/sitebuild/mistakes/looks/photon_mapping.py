@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sitebuild.mistakes.look import Look
-from sitebuild.mistakes.looks.media import _drawn
-from sitebuild.mistakes.plots import Array, histogram, label, plot
+from sitebuild.mistakes.plots import Array, drawn, histogram, label, plot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -197,7 +196,7 @@ LOOKS = {
         Look(f"How many directions have which cosine; {_LINE}", plot(_cosines, curve=True)),
         Look(
             f"The power of all photons, by how many there are; {_GREY}",
-            _drawn(COUNTS, _cone_power, "photons"),
+            drawn(COUNTS, _cone_power, "photons"),
             (
                 "cone_power_not_divided",
                 "cone_divided_by_batch",
@@ -214,17 +213,17 @@ LOOKS = {
         Look(f"How many directions have which cosine; {_LINE}", plot(_to_normal, curve=True)),
         Look(
             f"The power of all photons, by how many there are; {_GREY}",
-            _drawn(COUNTS, _area_all, "photons"),
+            drawn(COUNTS, _area_all, "photons"),
             ("area_without_pi", "area_two_pi"),
         ),
         Look(
             f"The power of a photon, by the size of the lamp; {_GREY}",
-            _drawn(AREAS, _area_sizes, "area"),
+            drawn(AREAS, _area_sizes, "area"),
             ("area_without_area",),
         ),
         Look(
             f"The power of photons, by the number that drives their cosine; {_GREY}",
-            _drawn(U, _area_power, "the number u[0]"),
+            drawn(U, _area_power, "the number u[0]"),
             ("area_cosine_twice",),
         ),
     ),
@@ -232,53 +231,51 @@ LOOKS = {
         Look(f"How far photons start from the middle; {_LINE}", plot(_radii, curve=True)),
         Look(
             f"The power of all photons, by how many there are; {_GREY}",
-            _drawn(COUNTS, _disk_power, "photons"),
+            drawn(COUNTS, _disk_power, "photons"),
             ("directional_without_area",),
         ),
         Look(
             f"Where photons start along the light's way; {_GREY}",
-            _drawn(FAR, _along, "where the scene's middle is"),
+            drawn(FAR, _along, "where the scene's middle is"),
             ("directional_behind", "directional_through_middle"),
         ),
     ),
     "roulette": (
         Look(
             f"Powers that go on, in three channels; {_GREY}",
-            _drawn(U, _sent_on, "the number u"),
+            drawn(U, _sent_on, "the number u"),
         ),
         Look(
             f"The same of a photon with a hundredth of the power, a hundred times as large; {_GREY}",
-            _drawn(U, _weak, "the number u"),
+            drawn(U, _weak, "the number u"),
             ("roulette_by_power",),
         ),
     ),
     "stored": (
         Look(
             f"Which of twelve photons are in the map of caustics, above, and in the other, below; {_GREY}",
-            _drawn(WORDS, _kept, "photon"),
+            drawn(WORDS, _kept, "photon"),
         ),
     ),
     "density_estimate": (
         Look(
             f"The irradiance of three photons, by the cosine at which they come; {_GREY}",
-            _drawn(SLANT, _by_slant, "cosine: below 0 from behind"),
+            drawn(SLANT, _by_slant, "cosine: below 0 from behind"),
         ),
     ),
     "cone_weights": (
-        Look(
-            f"The weight of a photon; {_GREY}", _drawn(D, _weights, "distance; the radius is 1.2")
-        ),
+        Look(f"The weight of a photon; {_GREY}", drawn(D, _weights, "distance; the radius is 1.2")),
     ),
     "final_gather": (
         Look(
             f"The radiance in three channels, where one of three rays meets nothing; {_GREY}",
-            _drawn(BRIGHT, _gathered, "irradiance where the other two land"),
+            drawn(BRIGHT, _gathered, "irradiance where the other two land"),
         ),
     ),
     "shrunk_radius": (
         Look(
             f"The radii of forty passes, cut off at 3; {_GREY}",
-            _drawn(PASSES, _shrinking, "pass"),
+            drawn(PASSES, _shrinking, "pass"),
         ),
     ),
 }

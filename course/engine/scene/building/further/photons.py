@@ -74,7 +74,7 @@ def _target(world: FullWorld, optical: Mask) -> Target | None:
         return None
     sweep = np.zeros((len(planes), 3))
     accelerator = world.surface.accelerator
-    for mover in getattr(accelerator, "movers", ()) if _moves(accelerator) else ():
+    for mover in accelerator.movers if isinstance(accelerator, MovingAccelerator) else ():
         sweep[mover.first : mover.last] = mover.velocity
     both = np.concatenate((corners, corners + sweep))
     mine = both[:, shines].reshape(-1, 3)
@@ -82,10 +82,6 @@ def _target(world: FullWorld, optical: Mask) -> Target | None:
     radius, reach = _farthest(mine, center), _farthest(both.reshape(-1, 3), center)
     # A little more than float32 may lose.
     return Target(center.astype(np.float32), radius * 1.0001, reach * 1.0001)
-
-
-def _moves(accelerator: object) -> bool:
-    return isinstance(accelerator, MovingAccelerator) or hasattr(accelerator, "movers")
 
 
 def _farthest(points: Floats64, center: Floats64) -> float:
