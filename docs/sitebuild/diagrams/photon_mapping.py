@@ -86,7 +86,7 @@ def steps() -> Figure:
         radius = photon_mapping.shrunk_radius(radius, np.array([number]), 0.3)
     return Figure(
         "Three passes. Each has new photons and a smaller disk; the irradiance at the cross is the mean over the"
-        r" passes of the photons' power over the disk's area. Here $\alpha$ is 0.3, so that it shrinks fast.",
+        " passes of the photons' power over the disk's area. Here $α$ is 0.3, so that it shrinks fast.",
         tuple(panels),
     )
 
@@ -131,7 +131,7 @@ def radii() -> Figure:
             found.append(radius[0])
             radius = photon_mapping.shrunk_radius(radius, np.array([number]), alpha)
         canvas.path(np.stack((passes, np.array(found))), kind)
-        canvas.label((passes[-9], found[-9]), rf"$\alpha$ = {alpha:.2g}", "n", 4)
+        canvas.label((passes[-9], found[-9]), f"$α$ = {alpha:.2g}", "n", 8)
     canvas.arrow((0, 0), (112, 0))
     canvas.label((50, 0), "pass", "s", 5)
     return Figure(
