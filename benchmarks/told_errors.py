@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import click
 import numpy as np
 
-from benchmarks.figures import Figure, summary
+from benchmarks.figures import Figure
 from benchmarks.reached_error import CASES, Effort, Runs, measure
 from course.benchmarking.tables import Table, print_tables
 
@@ -51,8 +51,9 @@ def figures(found: Sequence[Runs]) -> list[Figure]:
     result = [Figure(label, share, share, share, GOAL, at_least=True)]
     bounded = [max(one.ratios) for one in found if one.bounded]
     if bounded:
-        label = "--error: reached over asked, at most in each scene that tells no cause"
-        result.append(summary(label, bounded, MOST, at_least=False))
+        label = "--error: reached over asked, at most, in scenes that tell no cause"
+        # Never above it is what is wanted: the worst run says whether it holds, and not the median one.
+        result.append(Figure(label, max(bounded), min(bounded), max(bounded), MOST, at_least=False))
     return result
 
 
