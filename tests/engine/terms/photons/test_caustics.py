@@ -196,12 +196,20 @@ def fresnel(cos: Floats64, eta: float) -> Floats64:
     return np.asarray((s**2 + p**2) / 2)
 
 
-def test_a_glass_ball_gathers_a_beam_as_its_rays_say(make_scene: MakeScene) -> None:
+@pytest.mark.parametrize("motion", [{}, {"motion": {"velocity": [0.5, 0, 0.2]}}])
+def test_a_glass_ball_gathers_a_beam_as_its_rays_say(
+    make_scene: MakeScene, motion: dict[str, Any]
+) -> None:
     """Light straight down: a ray that meets the ball at b R leaves it at an angle of 2 (a - c), where sin a = b
-    and sin c = b / 1.5, and comes to the floor at a radius in closed form.
+    and sin c = b / 1.5, and comes to the floor at a radius in closed form. What moves with the floor stays on it.
     """
     beam = {"type": "directional", "direction": [0, -1, 0], "irradiance": 2}
-    scene = caustics(make_scene, lights=[beam], photons={"count": 50_000, "radius": 0.05})
+    scene = caustics(
+        make_scene,
+        lights=[beam],
+        objects=[FLOOR | motion, ball(**motion)],
+        photons={"count": 50_000, "radius": 0.05},
+    )
     photons = photons_of(scene)
     radius, height = 0.3, 0.8
     b = np.sqrt((np.arange(200_000) + 0.5) / 200_000)
@@ -217,6 +225,23 @@ def test_a_glass_ball_gathers_a_beam_as_its_rays_say(make_scene: MakeScene) -> N
         expected = power[lands <= bound].sum()
         came = photons.power[0, found <= bound].sum()
         assert came == pytest.approx(expected, rel=0.05)
+
+
+def test_a_caustic_follows_its_ball_while_the_shutter_is_open(make_scene: MakeScene) -> None:
+    """Along a way of length 1 at an even speed: a quarter of its light lies in each quarter of the way."""
+    camera = {"eye": [0, 5, 0.01], "look_at": [0, 0, 0], "shutter": {"open": 0, "close": 1}}
+    scene = caustics(
+        make_scene,
+        camera=camera,
+        lights=[{"type": "directional", "direction": [0, -1, 0], "irradiance": 2}],
+        objects=[FLOOR, ball(motion={"velocity": [1, 0, 0]})],
+    )
+    photons = photons_of(scene)
+    # What lands farther off has been mirrored in the ball.
+    near = (np.abs(photons.position[2]) < 0.1) & (np.abs(photons.position[0] - 0.5) < 0.7)
+    x, power = photons.position[0, near], photons.power[0, near].astype(np.float64)
+    for quarter in (0.25, 0.5, 0.75):
+        assert power[x < quarter].sum() / power.sum() == pytest.approx(quarter, abs=0.02)
 
 
 def test_a_ring_of_metal_draws_a_nephroid(make_scene: MakeScene) -> None:
