@@ -96,7 +96,7 @@ bench: $(STAMP)
 
 stress: $(STAMP)
 	"$(RUN)" -m benchmarks.stress
-	"$(RUN)" -m pytest -q -n auto --timeout=1800 --hypothesis-profile=stress tests/engine/stress tests/docs/test_quiz.py tests/school/notebooks/test_every_notebook.py
+	"$(RUN)" -m pytest -q -n auto --timeout=1800 --hypothesis-profile=stress @tests/long.txt
 
 mutants: $(STAMP)
 	"$(RUN)" -m benchmarks.mutants

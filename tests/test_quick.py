@@ -1,8 +1,9 @@
-"""`make quick` runs something of every room, and all that it names is there."""
+"""`make quick` runs something of every room, `make stress` all of what tries a share; all that they name is there."""
 
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+LONG = (ROOT / "tests" / "long.txt").read_text(encoding="utf-8").splitlines()
 LISTED = (ROOT / "tests" / "quick.txt").read_text(encoding="utf-8").splitlines()
 
 
@@ -25,3 +26,14 @@ def test_all_that_it_names_is_there() -> None:
         file, _, function = line.partition("[")[0].partition("::")
         text = (ROOT / file).read_text(encoding="utf-8")
         assert f"def {function or 'test_'}" in text, line
+
+
+def test_what_tries_a_share_tries_all_of_it_in_the_long_run() -> None:
+    mine = Path(__file__).name
+    sharing = {
+        path.relative_to(ROOT).as_posix()
+        for path in (ROOT / "tests").rglob("test_*.py")
+        if path.name != mine and "from tests.lengths import" in path.read_text(encoding="utf-8")
+    }
+    assert all((ROOT / each).exists() for each in LONG)
+    assert {path for path in sharing if not path.startswith(tuple(LONG))} == set()

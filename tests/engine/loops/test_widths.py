@@ -1,4 +1,8 @@
-"""Packets of 4, 8 and 16 rays make the same picture; each width that isn't this process's in one of its own."""
+"""Packets of 4, 8 and 16 rays make the same picture; each width that isn't this process's in one of its own.
+
+To compile the loops takes a minute. So the widest is tried here, which Embree's stand-in has compiled too; `make
+stress` tries all of them.
+"""
 
 import os
 from hashlib import sha256
@@ -11,6 +15,7 @@ from course.engine.functions.effects import PROJECT
 from course.engine.loops import library
 from course.engine.loops.library import NATIVE, WIDTH_VARIABLE
 from tests.conftest import Compiling
+from tests.lengths import share
 from tests.processes import python
 
 if not library.available() or library.library() is None:
@@ -31,7 +36,10 @@ print(library.width(), sha256(picture.linear.tobytes()).hexdigest(), shadows, sp
 """
 
 
-@pytest.mark.parametrize("width", sorted({*NATIVE} - {library.width()}))
+OTHERS = sorted({*NATIVE} - {library.width()}, reverse=True)
+
+
+@pytest.mark.parametrize("width", share(OTHERS, len(OTHERS)))
 def test_every_width_makes_the_picture_of_single_rays(
     width: int, compiled_in_turns: Compiling
 ) -> None:

@@ -2,8 +2,7 @@
 
 from hypothesis import HealthCheck, Phase, settings
 
-LONG = settings.get_current_profile_name() == "stress"
-"""Whether many were asked for: `pytest tests/engine/stress --hypothesis-profile=stress`."""
+from tests.lengths import LONG
 
 
 def examples(short: int, long: int) -> settings:

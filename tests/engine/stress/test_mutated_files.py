@@ -15,9 +15,9 @@ from types import TracebackType
 
 import pytest
 
-from tests.engine.stress.examples import LONG
 from tests.engine.stress.file_kinds import Kind, file_kinds
 from tests.engine.stress.mutations import mutated
+from tests.lengths import LONG
 
 ROOT = Path(__file__).parents[3]
 KINDS = {kind.name: kind for kind in file_kinds()}

@@ -25,7 +25,8 @@ from course.engine.formats.pictures.files import save
 from course.engine.formats.yaml.description import Light, Object
 from tests.changed_trees import change
 from tests.engine.stress.descriptions import FACES, FILES, descriptions
-from tests.engine.stress.examples import LONG, examples
+from tests.engine.stress.examples import examples
+from tests.lengths import LONG
 
 MESHES = {
     "sliver.obj": "v 0 0 0\nv 1 1e-9 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n",

@@ -12,7 +12,7 @@ import pytest
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
 from course.school.notebooks.making import notebook_of
-from tests.engine.stress.examples import LONG
+from tests.lengths import LONG
 from tests.school.notebooks.kernels import Kernel, kernel
 
 CHOSEN = [*COURSE] if LONG else ["soft_shadows"]
