@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from course.base.errors import CourseWarning
+from course.engine.functions.effects import PROJECT
 from tests.conftest import MakeScene
 
 CORNERS = "".join(f"v {x} {y} {z}\n" for x in (0, 3) for y in (0, 3) for z in (-3, 0))
@@ -56,3 +57,37 @@ def test_closed_glass_and_one_flat_side_are_not_told(
     make_scene: MakeScene, tmp_path: Path, text: str
 ) -> None:
     load(make_scene, tmp_path, text)
+
+
+TUMBLER = {"glass": None, "water_in_glass": "glass", "water": None}
+"""Of ``scenes/tumbler``: what lies around each."""
+
+
+def load_tumbler(make_scene: MakeScene, **speeds: float) -> None:
+    def clear(around: str | None) -> dict[str, object]:
+        return {"color": 0, "dielectric": {"refraction_index": 1.4, "surrounded_by": around}}
+
+    folder = PROJECT / "scenes" / "tumbler"
+    things = [
+        {
+            "shape": "mesh",
+            "file": str(folder / f"{name}.ply"),
+            "material": name,
+            "motion": {"velocity": [speed, 0, 0]},
+        }
+        for name, speed in speeds.items()
+    ]
+    make_scene(materials={name: clear(around) for name, around in TUMBLER.items()}, objects=things)
+
+
+def test_meshes_that_close_each_other_are_not_told(make_scene: MakeScene) -> None:
+    load_tumbler(make_scene, **dict.fromkeys(TUMBLER, 1.0))
+
+
+@pytest.mark.parametrize("left", [*TUMBLER])
+def test_a_mesh_that_moves_by_itself_is_told(make_scene: MakeScene, left: str) -> None:
+    with pytest.warns(CourseWarning, match="it is open at 96 edges") as told:
+        load_tumbler(make_scene, **dict.fromkeys(TUMBLER, 1.0) | {left: 0.5})
+    # A flat side alone is taken for where glass begins.
+    named = {name for name in TUMBLER if any(f"/{name}.ply" in str(one.message) for one in told)}
+    assert named == {"glass", "water_in_glass"}

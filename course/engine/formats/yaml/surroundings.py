@@ -89,6 +89,9 @@ def warn_of_nested(
         glass = glasses[mine]
         if mine == theirs or glass.surrounded_by is not None or glass.refraction_index < 1:
             continue
+        if _touch(meshes[outer], meshes[inner]):
+            # Where two share vertices they are parts of one surface, such as that of water in a tumbler.
+            continue
         if _contains(meshes[outer], meshes[inner].vertices[0]):
             warnings.warn(
                 f"{document.where(('objects', inner))}: objects[{inner}] ({mine}) lies inside objects[{outer}] "
@@ -98,6 +101,12 @@ def warn_of_nested(
                 stacklevel=2,
             )
             return
+
+
+def _touch(first: Mesh, second: Mesh) -> bool:
+    """Whether two meshes have a vertex at one place."""
+    places = {place.tobytes() for place in first.vertices + 0.0}
+    return any(place.tobytes() in places for place in second.vertices + 0.0)
 
 
 _ASKEW = np.array([0.5431, 0.6173, 0.5692])

@@ -1,12 +1,13 @@
 """Meshes of glass that enclose nothing: where one says no inside and outside, light is bent and absorbed wrongly."""
 
 import warnings
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 
 from course.base.errors import CourseWarning
-from course.engine.core.types import Indices
+from course.engine.core.types import Indices, Mask
 from course.engine.formats.meshes.parts import same
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.loading import Loaded
@@ -14,16 +15,29 @@ from course.engine.shapes.mesh import Mesh
 
 
 def warn_of_glass(loaded: Loaded, meshes: Sequence[Mesh]) -> None:
-    """Warn of each mesh of a file that is a dielectric, and not closed, or inside out."""
+    """Warn of each mesh of a file that is a dielectric, and not closed, or inside out.
+
+    Dielectrics may close each other. Where a tumbler's mesh is open at the water's edge, two others are: between water
+    and glass, and between water and air. Two parts of one material need no third.
+    """
     scene = loaded.description
     if scene.integrator.into_surface != "mirror":
         # The picture is another renderer's, whose scenes have glass of single sides.
         return
-    for number, (thing, mesh) in enumerate(zip(scene.objects, meshes, strict=True)):
-        material = scene.materials[thing.material]
-        if not isinstance(thing, d.MeshFile) or material.dielectric is None:
-            continue
-        if trouble := wrong_inside(mesh):
+    clear = [
+        number
+        for number, thing in enumerate(scene.objects)
+        if isinstance(thing, d.MeshFile) and scene.materials[thing.material].dielectric is not None
+    ]
+    for number in clear:
+        thing = scene.objects[number]
+        assert isinstance(thing, d.MeshFile)
+        others = [
+            (meshes[other], 2 if scene.objects[other].material == thing.material else 1)
+            for other in clear
+            if other != number and scene.objects[other].motion == thing.motion
+        ]
+        if trouble := wrong_inside(meshes[number], others):
             warnings.warn(
                 f"{loaded.document.where(('objects', number))}: {thing.file} is of glass, {thing.material}, but"
                 f" {trouble}",
@@ -32,30 +46,61 @@ def warn_of_glass(loaded: Loaded, meshes: Sequence[Mesh]) -> None:
             )
 
 
-def wrong_inside(mesh: Mesh) -> str | None:
-    """What keeps a mesh from enclosing glass, and what helps; None where nothing does."""
+def wrong_inside(mesh: Mesh, others: Sequence[tuple[Mesh, int]] = ()) -> str | None:
+    """What keeps a mesh from enclosing glass, and what helps; None where nothing does, or ``others`` close it.
+
+    ``others``: with a number each. Those that are open at one edge close it where their numbers' sum is 2.
+    """
+    used = mesh.vertices[mesh.triangles.ravel()]
+    if np.linalg.matrix_rank(used - used[0], tol=1e-6 * np.ptp(used)) < 3:
+        # One flat side is where glass begins, and all behind it is glass.
+        return None
+    corners = _corners(mesh)
+    start, end, _ = _edges(corners)
+    edge, uses = _uses(corners)
+    if is_open := int(np.count_nonzero(uses % 2)):
+        closing = sum((Counter(dict.fromkeys(_rim(m), n)) for m, n in others), Counter[bytes]())
+        if all(closing[edge] >= 2 for edge in _rim(mesh)):
+            return None
+        return f"it is open at {is_open:,} edges: it has no inside; close it"
+    ahead = np.bincount(edge, weights=np.where(start < end, 1, -1))
+    if turned := int(np.count_nonzero(ahead)):
+        return f"triangles at {turned:,} edges are wound against each other: no side is the inside; turn some"
+    return _wrong_side(mesh, corners)
+
+
+def _corners(mesh: Mesh) -> Indices:
+    """Vertices (T, 3) of the triangles that have three; those at one place are one where the mesh isn't closed so."""
     corners = mesh.triangles.astype(np.int64)
     if not _closed(corners):
-        # Vertices at one place are one, such as those of an STL file or at a seam.
+        # Such as those of an STL file or at a seam.
         corners = same(*mesh.vertices.T)[1][corners]
     sides = np.sort(corners, axis=1)
-    corners = corners[(sides[:, 1:] != sides[:, :-1]).all(axis=1)]
+    whole: Mask = (sides[:, 1:] != sides[:, :-1]).all(axis=1)
+    return corners[whole]
+
+
+def _uses(corners: Indices) -> tuple[Indices, Indices]:
+    """The edge of each side (3 T,), and how many sides each edge has."""
     start, end, count = _edges(corners)
     _, edge, uses = np.unique(
         np.minimum(start, end) * count + np.maximum(start, end),
         return_inverse=True,
         return_counts=True,
     )
-    ahead = np.bincount(edge.ravel(), weights=np.where(start < end, 1, -1))
-    used = mesh.vertices[mesh.triangles.ravel()]
-    if np.linalg.matrix_rank(used - used[0], tol=1e-6 * np.ptp(used)) < 3:
-        # One flat side is where glass begins, and all behind it is glass.
-        return None
-    if is_open := int(np.count_nonzero(uses % 2)):
-        return f"it is open at {is_open:,} edges: it has no inside; close it"
-    if turned := int(np.count_nonzero(ahead)):
-        return f"triangles at {turned:,} edges are wound against each other: no side is the inside; turn some"
-    return _wrong_side(mesh, corners)
+    return edge.ravel(), uses
+
+
+def _rim(mesh: Mesh) -> set[bytes]:
+    """Where the open edges are: the places of their ends, in order."""
+    corners = _corners(mesh)
+    edge, uses = _uses(corners)
+    is_open = uses[edge] % 2 == 1
+    start, end, _ = _edges(corners)
+    # Where any is open, corners are numbered by place.
+    places = mesh.vertices[same(*mesh.vertices.T)[0]] if is_open.any() else mesh.vertices
+    ends = np.stack((places[start[is_open]], places[end[is_open]]), axis=1) + 0.0
+    return {min(a.tobytes() + b.tobytes(), b.tobytes() + a.tobytes()) for a, b in ends}
 
 
 def _wrong_side(mesh: Mesh, corners: Indices) -> str | None:
