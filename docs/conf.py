@@ -54,6 +54,7 @@ html_css_files = [
 html_js_files = [
     ("before_after.js", {"defer": "defer"}),
     ("scrollers.js", {"defer": "defer"}),
+    ("folded.js", {"defer": "defer"}),
     ("search_words.js", {"defer": "defer"}),
     ("plot_values.js", {"defer": "defer"}),
     ("series.js", {"defer": "defer"}),

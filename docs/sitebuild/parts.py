@@ -2,8 +2,8 @@
 
 A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. Unasked, a
 module's page begins with its task, the pair of its two scenes' pictures if it has two that differ, and its objectives;
-what each function looks like when it is right stands before its common mistakes, which are folded; and the quiz stands
-before "Exercises".
+what each function looks like when it is right stands before its common mistakes, which are folded, as formula and
+sources are; and the quiz stands before "Exercises".
 """
 
 import re
@@ -62,6 +62,13 @@ _FOLDED = r"""<!-- site: right \2-->
 </details>
 """
 """A list of common mistakes tells nearly all that is to be found out: it is opened by who wants to know."""
+
+_DEEP = re.compile(r"^## (The integral|Sources)\n\n(.*?)\n(?=^## |\Z)", re.MULTILINE | re.DOTALL)
+_SUMMARIES = {
+    "The integral": "The formula, and what its symbols mean",
+    "Sources": "Books and papers",
+}
+"""What is folded below these headings, so that a page is read from its picture to its functions without them."""
 
 Part = Callable[[Place, str, str], str]
 """Takes where the part stands, its name and the words after that; returns Markdown."""
@@ -158,7 +165,10 @@ class Site:
     def expanded(self, page: str, text: str) -> str:
         """Return a page's Markdown with its generated parts."""
         folder, _, module = page.rpartition("/")
-        text = indexed(page, linked(module, text) if folder == "modules" else text)
+        if folder == "modules":
+            text = _DEEP.sub(_folded, linked(module, text))
+        # Entries of the index stand before headings: what is folded ends above them.
+        text = indexed(page, text)
         if folder == "modules":
             heading = f"\n<!-- site: task {module} -->\n"
             if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
@@ -180,6 +190,12 @@ class Site:
             site=None if blank else Path(self.app.outdir),
         )
         return MARK.sub(lambda match: _part(match, place), text)
+
+
+def _folded(match: re.Match[str]) -> str:
+    heading, text = match.groups()
+    summary = f'<details class="deep"><summary>{_SUMMARIES[heading]}</summary>'
+    return f"## {heading}\n\n{summary}\n\n{text}\n\n</details>\n\n"
 
 
 def _part(match: re.Match[str], place: Place) -> str:

@@ -8,8 +8,8 @@ from tests.browser import tab_to, untroubled
 
 def test_a_mistake_opens_beside_what_is_right(browser: Any, site: Path) -> None:
     with untroubled(browser) as page:
-        page.goto((site / "modules" / "soft_shadows.html").as_uri())
-        first = page.locator("details.deep").first
+        page.goto((site / "modules" / "soft_shadows.html").as_uri() + "#light_grid")
+        first = page.locator("#light_grid details.deep")
         group = first.locator(".mistakes").first
         assert not group.is_visible()
         alone = first.locator("xpath=preceding::figure[1]")
@@ -37,6 +37,18 @@ def test_a_mistake_opens_beside_what_is_right(browser: Any, site: Path) -> None:
         assert not dialog.is_visible()
         # Whoever closes it is where it was opened.
         assert page.evaluate("document.activeElement.matches('.mistakes button')")
+
+
+def test_a_link_opens_what_is_folded_below_its_heading_and_around_its_place(
+    browser: Any, site: Path
+) -> None:
+    with untroubled(browser) as page:
+        page.goto((site / "modules" / "soft_shadows.html").as_uri() + "#the-integral")
+        formula, sources = (page.locator(f"#{name} > details") for name in ("the-integral", "sources"))
+        assert formula.locator("math").first.is_visible()
+        assert sources.get_attribute("open") is None
+        page.evaluate("document.querySelector('#sources li').id = 'deep'; location.hash = '#deep'")
+        sources.locator("#deep").wait_for(timeout=2000)
 
 
 def test_plots_are_marked_so_that_the_dark_scheme_can_turn_them(site: Path) -> None:

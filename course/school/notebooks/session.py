@@ -4,6 +4,7 @@ import ast
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from inspect import getsource
 from types import FunctionType
 from typing import Any
@@ -35,10 +36,24 @@ class RunCell:
     text: str
     failed: bool = False
 
-    @property
+    @cached_property
     def names(self) -> frozenset[str]:
         """All that it defines or imports."""
-        return bound_in(self.text)
+        return _scopes(self.text)[0]
+
+    @cached_property
+    def reads(self) -> frozenset[str]:
+        """All names that it uses."""
+        return _scopes(self.text)[1]
+
+    def again(self, before: "RunCell") -> bool:
+        """Whether it is that cell, run once more: where the notebook doesn't say, if it binds what the other did."""
+        if self.key and before.key:
+            return self.key == before.key
+        common = self.names & before.names
+        if common & MODULE_OF.keys() and (before.failed or before.names <= self.names):
+            return True
+        return bool(common) and before.names == self.names
 
 
 @dataclass(frozen=True)
@@ -67,9 +82,12 @@ class SessionModule:
 
 
 class Session:
-    """The cells that a shell has run, in that order; of one that was run again the last time counts.
+    """The cells that a shell has run, in that order; of one that was run again the last time counts, in its old place.
 
-    ``shell``: of IPython, which tells of each cell
+    Attributes
+    ----------
+    cells : in an order in which they make what the notebook holds
+    number : of the cell that was begun last; 0 before any
     """
 
     def __init__(self, shell: Any) -> None:
@@ -81,14 +99,10 @@ class Session:
             # Nobody knew that magic yet, so what is below it has not run.
             if not text.lstrip().startswith("%%check")
         ]
+        self.number = len(self.cells) and self.cells[-1].number
         self._shell = shell
         shell.events.register("pre_run_cell", self._begun)
         shell.events.register("post_run_cell", self._ended)
-
-    @property
-    def number(self) -> int:
-        """Of the cell that was begun last; 0 before any."""
-        return self.cells[-1].number if self.cells else 0
 
     def close(self) -> None:
         """Listen no longer."""
@@ -98,26 +112,23 @@ class Session:
     def _begun(self, info: Any) -> None:
         if not info.store_history or info.silent:
             return
-        key = getattr(info, "cell_id", None)
         # Before or after this event, as its version has it, IPython counts; what it keeps of a cell comes later in all.
-        number = len(self._shell.history_manager.input_hist_raw)
-        cell = RunCell(number, key, info.raw_cell)
-        own = cell.names
-        # Without a key, a cell is the same as one before if it defines what the other did, or what that failed to do.
-        self.cells = [
-            one
-            for one in self.cells
-            if not (
-                one.key == key
-                if key and one.key
-                else one.names & own & MODULE_OF.keys() and (one.failed or one.names <= own)
-            )
-        ]
-        self.cells.append(cell)
+        self.number = len(self._shell.history_manager.input_hist_raw)
+        cell = RunCell(self.number, getattr(info, "cell_id", None), info.raw_cell)
+        same = [at for at, one in enumerate(self.cells) if cell.again(one)]
+        others = [one for one in self.cells if not cell.again(one)]
+        # It stays where others find its names when they are run, unless these bind what it binds or uses.
+        place = same[0] if same else len(others)
+        if any((cell.names | cell.reads) & one.names for one in others[place:]):
+            place = len(others)
+        self.cells = [*others[:place], cell, *others[place:]]
 
     def _ended(self, result: Any) -> None:
-        if not result.success and self.cells:
-            self.cells[-1] = replace(self.cells[-1], failed=True)
+        if not result.success:
+            self.cells = [
+                replace(one, failed=True) if one.number == self.number else one
+                for one in self.cells
+            ]
 
     def module(self, module: str) -> SessionModule:
         """What the cells make of a module, as it would be graded if the notebook had them in this order."""
@@ -145,13 +156,19 @@ def functions_in(text: str) -> frozenset[str]:
 
 def bound_in(text: str) -> frozenset[str]:
     """All names that a cell defines or imports."""
+    return _scopes(text)[0]
+
+
+def _scopes(text: str) -> tuple[frozenset[str], frozenset[str]]:
+    """All names that a cell binds, and all that it uses."""
     cells = [{"cell_type": "code", "source": text}]
     # Imported late, with IPython.
     from course.engine.functions.notebook.cells import read_cells
 
     found = read_cells(json.dumps({"cells": cells}).encode()).statements
     text = ast.unparse(ast.Module([one.node for one in found], []))
-    return frozenset(scopes(text)[0])
+    binds, reads, _ = scopes(text)
+    return frozenset(binds), frozenset(reads)
 
 
 class Mine(Mapping[str, Callable[..., Any]]):

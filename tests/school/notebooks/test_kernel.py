@@ -120,6 +120,17 @@ def test_cells_in_any_order_tell_what_is_lacking(shared: Kernel) -> None:
     assert "no cell that was run" not in shared.run(cell).text
 
 
+def test_a_cell_that_is_run_again_keeps_its_place(shared: Kernel) -> None:
+    for key in ("one", None):
+        shared.run("HALF = np.float32(0.5)", key)
+        shared.run("ONE = HALF * 2", key and "two")
+        shared.run(RIGHT.replace("* time", "* time * ONE"), key and "three")
+        shared.run("HALF = np.float32(1) / 2", key)
+        told = shared.run("%check motion_blur --only displacement/linear").text
+        assert "right    displacement" in told
+        assert "binds HALF" not in told
+
+
 @pytest.mark.parametrize(
     ("cell", "told"),
     [

@@ -62,9 +62,12 @@ def test_a_name_that_cells_bind_anew_is_told_with_their_numbers() -> None:
     # The same again is nothing new, and no function needs the other.
     run("import numpy as np\nbeside = 1")
     run("beside = 2")
-    run("TWICE = 3")
-    assert found.module("motion_blur").rebound == (("TWICE", (3, 7)),)
-    assert found.number == 7
+    # What binds the same names is the same cell, edited: no key says more.
+    run("TWICE = 4")
+    assert found.module("motion_blur").rebound == ()
+    run("TWICE = 3\nTHRICE = TWICE + 1")
+    assert found.module("motion_blur").rebound == (("TWICE", (7, 8)),)
+    assert found.number == 8
     # Last run counts, as in Python.
     assert found.module("motion_blur").text.index(b"TWICE = 3") > 0
 
