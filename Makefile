@@ -102,14 +102,14 @@ mutants: $(STAMP)
 	"$(RUN)" -m benchmarks.mutants
 
 # What the site needs is installed when it is first built. A first build writes its pages with grey pictures, so that
-# they can be read while the others are rendered. Pictures are kept in out/docs: a build that is ended goes on with them;
-# `make docs SPHINXOPTS="-D pictures=blank"` does without, for a quick look at the text.
+# they can be read while the others are drawn, in a process for each core. Pictures are kept in out/docs: a build that is
+# ended goes on with them; `make docs SPHINXOPTS="-D pictures=blank"` does without, for a quick look at the text.
 docs: $(STAMP)
 	$(if $(wildcard docs/conf.py),,$(error this copy has no docs/: the site is made from the whole course))
 	@"$(RUN)" -c "import furo, ipykernel, latex2mathml, myst_parser, nbclient, sphinx" 2>/dev/null \
 		|| "$(RUN)" -m pip --disable-pip-version-check -qq install --editable ".[docs]"
-	@$(if $(wildcard $(SITE)/index.html),,echo "writing the pages; their pictures follow" \
-		&& "$(RUN)" -m sphinx -q -b html -d out/docs/doctrees -D pictures=blank docs $(SITE))
+	@$(if $(findstring pictures=blank,$(SPHINXOPTS)),,\
+		PYTHONPATH=docs "$(RUN)" -m sitebuild.ahead out/docs/doctrees $(SITE))
 	@"$(RUN)" -m sphinx -W --keep-going -q -b html -d out/docs/doctrees $(SPHINXOPTS) docs $(SITE)
 	@echo "$(SITE)/index.html"
 

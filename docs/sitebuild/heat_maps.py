@@ -52,7 +52,7 @@ def counts(name: str) -> Indices:
     scene = load_scene(pictures.scene_path(name))
     if scene.loaded.description.acceleration.type == "hierarchy":
         return box_tests(scene, scene.settings)
-    return np.maximum(render(scene).film.samples, 1)
+    return np.maximum(render(scene, threads=pictures.THREADS).film.samples, 1)
 
 
 def kept(

@@ -15,7 +15,7 @@ from PIL import Image
 from course import load_scene, render
 from course.benchmarking.references import engine_hash
 from course.engine.functions.effects import PROJECT, Effects
-from sitebuild import webp
+from sitebuild import pictures, webp
 from sitebuild.key_headings import link
 from sitebuild.key_variants import COMMON, HEAT_MAPS, VARIANTS, Changes
 from sitebuild.key_words import ELSEWHERE, WORDS
@@ -87,11 +87,10 @@ def _about(definition: str) -> str:
 
 def _file(place: Place, changes: Changes, *, heat: bool) -> tuple[str, Path]:
     """The picture's name on the site, and where it is now."""
+    name = _name(changes, heat=heat)
     if place.blank:
-        path = webp.save_blank(place.made / "key.webp", SIZE)
-        return path.name, path
-    path = picture(changes, heat=heat)
-    return path.name, path
+        return name, webp.save_blank(place.made / "key.webp", SIZE)
+    return name, picture(changes, heat=heat)
 
 
 def described(changes: Changes) -> dict[str, Any]:
@@ -125,7 +124,7 @@ def image(
     with TemporaryDirectory(prefix="course-") as folder:
         file = Path(folder, "key.yaml")
         file.write_text(text, encoding="utf-8")
-        made = render(load_scene(file), size=size, spp=samples)
+        made = render(load_scene(file), size=size, spp=samples, threads=pictures.THREADS)
         shown = webp.on_screen(made)
         if heat:
             made.save_heat_map(file.with_suffix(".png"))
@@ -135,7 +134,7 @@ def image(
 
 def picture(changes: Changes, kept: Path = KEPT, *, heat: bool = False) -> Path:
     """Render a picture or its heat map, unless it is kept; return the WebP file."""
-    path = kept / f"{_hash(changes)}{'-rays' if heat else ''}.webp"
+    path = kept / _name(changes, heat=heat)
     if not path.is_file():
         if not kept.is_dir():
             click.echo("rendering the pictures of the keys of scene files", err=True)
@@ -147,7 +146,8 @@ def picture(changes: Changes, kept: Path = KEPT, *, heat: bool = False) -> Path:
     return path
 
 
-def _hash(changes: Changes) -> str:
+def _name(changes: Changes, *, heat: bool) -> str:
+    """The file's name: a hash of all that decides the picture."""
     everything = [
         described(changes),
         _files(),
@@ -155,7 +155,8 @@ def _hash(changes: Changes) -> str:
         SIZE,
         QUALITY,
     ]
-    return sha256(json.dumps(everything, sort_keys=True).encode()).hexdigest()[:16]
+    key = sha256(json.dumps(everything, sort_keys=True).encode()).hexdigest()[:16]
+    return f"{key}-rays.webp" if heat else f"{key}.webp"
 
 
 @lru_cache(maxsize=1)

@@ -14,7 +14,7 @@ from course import load_scene, render
 from course.base.atomic import replacing
 from course.base.errors import SceneError
 from course.benchmarking.references import engine_hash
-from course.engine.functions.effects import PROJECT, Effects
+from course.engine.functions.effects import PACKAGE, PROJECT, Effects
 from sitebuild import pictures, webp
 from sitebuild.place import Place
 from sitebuild.shots import laid_out
@@ -36,7 +36,7 @@ def metu_shot(place: Place, name: str, words: str = "") -> str:
         command = f"course render scenes/{name}.xml --camera {camera} -o {scene.stem}-{camera}.png"
 
         def make() -> Made:
-            made = render(loaded)
+            made = render(loaded, threads=pictures.THREADS)
             planned = pictures.Shot(name, title, (0, 0), 0, "")
             text = pictures.receipt_text(planned, made.receipt.to_dict())
             return webp.on_screen(made), text
@@ -106,7 +106,7 @@ def kept_picture(scene: Path, command: str, make: Callable[[], Made]) -> tuple[P
     hashes = [sha256(path.read_bytes()).hexdigest() for path in files]
     solver = [
         sha256(path.read_bytes()).hexdigest()
-        for path in sorted((PROJECT / "course" / "radiosity").glob("*.py"))
+        for path in sorted((PACKAGE / "engine" / "radiosity").rglob("*.py"))
     ]
     everything = [command, hashes, solver, engine_hash(Effects().folder.resolve())]
     key = sha256(json.dumps(everything).encode()).hexdigest()[:32]

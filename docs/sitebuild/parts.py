@@ -111,7 +111,8 @@ PARTS: dict[str, Part] = {
 
 def connect(app: Sphinx) -> None:
     """Expand the comments as pages are read, and hand the files over when all are written."""
-    app.add_config_value("pictures", "render", "env", str)
+    # Pages whose parts change with it are read again by what their parts are.
+    app.add_config_value("pictures", "render", "", str)
     site = Site(app)
     app.connect("env-get-outdated", site.outdated)
     app.connect("source-read", site.expand_page)
@@ -164,22 +165,6 @@ class Site:
 
     def expanded(self, page: str, text: str) -> str:
         """Return a page's Markdown with its generated parts."""
-        folder, _, module = page.rpartition("/")
-        if folder == "modules":
-            text = _DEEP.sub(_folded, linked(module, text))
-        # Entries of the index stand before headings: what is folded ends above them.
-        text = indexed(page, text)
-        if folder == "modules":
-            heading = f"\n<!-- site: task {module} -->\n"
-            if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
-                heading += f"\n<!-- site: before_after {module} -->\n"
-            heading += f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
-            text = _LISTS.sub(_FOLDED, text.replace("\n## The phenomenon\n", heading, 1))
-            if has_questions(module):
-                asked = f"\n## {HEADING}\n\n<!-- site: quiz {module} -->\n\n## Exercises\n"
-                text = text.replace("\n## Exercises\n", asked, 1)
-        if page == "glossary":
-            text = directives(text)
         blank = self.app.config.pictures == "blank"
         place = Place(
             up="../" * page.count("/"),
@@ -189,7 +174,26 @@ class Site:
             kept=self.kept,
             site=None if blank else Path(self.app.outdir),
         )
-        return MARK.sub(lambda match: _part(match, place), text)
+        return MARK.sub(lambda match: _part(match, place), with_marks(page, text))
+
+
+def with_marks(page: str, text: str) -> str:
+    """Return a page's Markdown with the comments in it that ask for parts, those that stand there unasked, too."""
+    folder, _, module = page.rpartition("/")
+    if folder == "modules":
+        text = _DEEP.sub(_folded, linked(module, text))
+    # Entries of the index stand before headings: what is folded ends above them.
+    text = indexed(page, text)
+    if folder == "modules":
+        heading = f"\n<!-- site: task {module} -->\n"
+        if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
+            heading += f"\n<!-- site: before_after {module} -->\n"
+        heading += f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
+        text = _LISTS.sub(_FOLDED, text.replace("\n## The phenomenon\n", heading, 1))
+        if has_questions(module):
+            asked = f"\n## {HEADING}\n\n<!-- site: quiz {module} -->\n\n## Exercises\n"
+            text = text.replace("\n## Exercises\n", asked, 1)
+    return directives(text) if page == "glossary" else text
 
 
 def _folded(match: re.Match[str]) -> str:

@@ -36,6 +36,9 @@ FEW = 4
 
 QUALITY = 92
 
+THREADS: int | None = None
+"""That render; None for one a core. Where several processes draw (`sitebuild.ahead`), each has one."""
+
 
 @dataclass(frozen=True)
 class Shot:
@@ -131,7 +134,8 @@ def picture(planned: Shot, kept: Path = KEPT) -> tuple[Path, dict[str, Any]]:
     image, receipt = kept / f"{planned.key}.webp", kept / f"{planned.key}.json"
     if not (image.is_file() and receipt.is_file()):
         click.echo(f"rendering scenes/{planned.name}.yaml", err=True)
-        made = render(load_scene(planned.scene), size=planned.size, spp=planned.samples)
+        scene = load_scene(planned.scene)
+        made = render(scene, size=planned.size, spp=planned.samples, threads=THREADS)
         webp.save(webp.on_screen(made), image, QUALITY)
         with replacing(receipt) as temporary:
             temporary.write_text(json.dumps(made.receipt.to_dict(), indent=1), encoding="utf-8")

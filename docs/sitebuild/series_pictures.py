@@ -44,7 +44,13 @@ def picture(series: Series, step: tuple[int, ...], kept: Path = KEPT) -> Path:
     image = kept / f"{scene_hash(loaded, Effects(), **settings)}.webp"
     if not image.is_file():
         click.echo(f"rendering scenes/{series.scene}.yaml: {caption(series, step)}", err=True)
-        made = render(_compiled(*state), size=series.size, spp=samples, sampler=settings["sampler"])
+        made = render(
+            _compiled(*state),
+            size=series.size,
+            spp=samples,
+            sampler=settings["sampler"],
+            threads=pictures.THREADS,
+        )
         webp.save(webp.on_screen(made), image, QUALITY)
     return image
 

@@ -41,7 +41,7 @@ NOT_RUN = {
 }
 """What is not run, and why."""
 
-TOOLS = {"ruff", "mypy", "sphinx", "http.server", "pip", "pytest", "uv"}
+TOOLS = {"ruff", "mypy", "sphinx", "http.server", "pip", "pytest", "sitebuild.ahead", "uv"}
 """Programs that recipes of the Makefile call beside the course."""
 
 TINY = ["--size", "48x32"]

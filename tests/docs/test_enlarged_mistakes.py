@@ -44,7 +44,9 @@ def test_a_link_opens_what_is_folded_below_its_heading_and_around_its_place(
 ) -> None:
     with untroubled(browser) as page:
         page.goto((site / "modules" / "soft_shadows.html").as_uri() + "#the-integral")
-        formula, sources = (page.locator(f"#{name} > details") for name in ("the-integral", "sources"))
+        formula, sources = (
+            page.locator(f"#{name} > details") for name in ("the-integral", "sources")
+        )
         assert formula.locator("math").first.is_visible()
         assert sources.get_attribute("open") is None
         page.evaluate("document.querySelector('#sources li').id = 'deep'; location.hash = '#deep'")

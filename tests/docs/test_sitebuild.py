@@ -10,7 +10,7 @@ pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
 
 from docutils import nodes
-from sitebuild import docstrings, key_headings, mathematics, numbers, parts, pictures
+from sitebuild import ahead, docstrings, key_headings, mathematics, numbers, parts, pictures
 from sitebuild.place import Place
 
 SCENE = """\
@@ -89,6 +89,46 @@ def test_pictures_take_the_place_of_grey_ones_while_others_are_made(tmp_path: Pa
     # What no page shows yet waits for its page.
     place.address("_pictures/b.webp", file)
     assert not (site / "_pictures" / "b.webp").exists()
+
+
+def test_pictures_are_drawn_ahead_once_for_an_engine(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn, codes = [], [2, 0]
+    pool = SimpleNamespace(submit=lambda *call: drawn.append(call), shutdown=lambda **_: None)
+    writing = SimpleNamespace(wait=lambda: codes.pop(0))
+    monkeypatch.setattr(ahead, "ProcessPoolExecutor", lambda *_: pool)
+    monkeypatch.setattr(ahead, "wait", len)
+    monkeypatch.setattr(ahead.subprocess, "Popen", lambda _: writing)
+    monkeypatch.setattr(ahead.kept, "ROOT", tmp_path / "kept")
+    (site := tmp_path / "site").mkdir()
+
+    def began() -> tuple[int, int]:
+        drawn.clear()
+        return ahead.main(str(tmp_path / "trees"), str(site)), len(drawn)
+
+    code, count = began()
+    assert (code, count > 100) == (2, True)  # a page is wrong: no picture is taken for drawn
+    assert began() == (0, count)
+    assert began() == (0, 0)
+    # With another engine pictures are drawn anew, and pages that are there stay as they are.
+    monkeypatch.setattr(ahead, "engine_hash", lambda _: "another")
+    (site / "index.html").touch()
+    assert began() == (0, count)
+    assert [call[1][0] for call in drawn][:2] == [*ahead.LONG]
+    assert {call[1][0] for call in drawn} == {*ahead.LONG, *ahead.DRAWN}
+    assert codes == []
+
+
+def test_what_is_drawn_ahead_takes_the_place_of_grey(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(parts.PARTS, "picture", lambda place, *_: place.address("_a/b.webp", file))
+    (tmp_path / "_a").mkdir()
+    (grey := tmp_path / "_a" / "b.webp").touch()
+    (file := tmp_path / "drawn").write_bytes(b"colours")
+    ahead.draw(("picture", "ball", ""), tmp_path)
+    assert grey.read_bytes() == b"colours"
 
 
 @pytest.mark.usefixtures("scene")

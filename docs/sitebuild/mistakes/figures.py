@@ -111,9 +111,10 @@ def draw(figure: Figure) -> Image.Image:
 
 
 class Studio:
-    """The processes that draw; started when the first figure is asked for."""
+    """The processes that draw, as many as ``processes`` says; started when the first figure is asked for."""
 
     def __init__(self) -> None:
+        self.processes = PROCESSES
         self._pool: Any = None
 
     def files(self, figures: Iterable[Figure], kept: Path = KEPT) -> dict[Figure, tuple[Path, str]]:
@@ -144,7 +145,7 @@ class Studio:
     def _draw(self, paths: Mapping[Figure, tuple[Path, Path]]) -> None:
         """Draw them, up to the first that does not end."""
         if self._pool is None:
-            self._pool = get_context("spawn").Pool(PROCESSES)
+            self._pool = get_context("spawn").Pool(self.processes)
             atexit.register(
                 self.close
             )  # a pool that Python ends while it takes itself apart complains
