@@ -75,7 +75,7 @@ def uniform(
                 )
             try:
                 for row, name in zip(range(alone), feature_names(what, len(found)), strict=False):
-                    check_uniform(found[row : row + 1], (24,), f"{name}, alone", hint)
+                    check_uniform(found[row : row + 1], (24,), f"{name}, by itself", hint)
                 check_uniform(found, cells, what if not alone else f"{what}, together", hint)
             except Failure as failure:
                 failure.example = crowded(found, what)
@@ -202,8 +202,8 @@ def chi_squared(counts: Array, expected: Array, what: str, hint: str = "") -> No
     if not statistic < limit:
         worst = int(np.argmax(np.abs(counts - expected) / np.sqrt(expected)))
         raise Failure(
-            f"{what}: chi-squared under {limit:.0f} over {counts.size} cells",
-            f"{statistic:.0f}",
+            f"{what}: each of {counts.size} cells as often as it should be, so chi-squared under {limit:.0f}",
+            f"chi-squared {statistic:.0f}",
             f"cell {worst} came {counts.flat[worst]:.0f} times, {expected.flat[worst]:.0f} were to be expected",
             hint,
         )
