@@ -15,7 +15,6 @@ from tempfile import TemporaryDirectory
 
 import click
 
-from course.base.texts import words
 from course.benchmarking.references import engine_hash
 from course.engine.functions.effects import Effects
 from course.engine.render.threads import default_threads
@@ -26,9 +25,10 @@ from sitebuild.place import Place
 
 DOCS = Path(__file__).parents[1]
 
-DRAWN = words(
-    "before_after picture series mistakes shot heat_map metu_shot series_grid radiosity_flight radiosity_shot "
-    "radiosity_steps radiosity_scrubber cards quiz"
+DRAWN = (
+    *("before_after", "picture", "series", "mistakes", "shot", "heat_map", "metu_shot"),
+    *("series_grid", "radiosity_flight", "radiosity_shot", "radiosity_steps"),
+    *("radiosity_scrubber", "cards", "quiz"),
 )
 """Kinds of parts whose pictures are kept, in the order in which they are drawn: first screens before the rest."""
 

@@ -423,7 +423,7 @@ def test_tests_a_ray_of_the_scene() -> None:
     assert told(triangles, receipt.tests["triangles"] / rays, within=0.01)
     fewest, most, half = said(
         "bounding_volumes",
-        r"takes between N test with a box, high in the sky, and N, half of them no more than N,",
+        r"high in the sky takes N test with a box, the costliest ray N, and half of all rays at most N\.",
     )
     each = boxes_met(scene, scene.settings)
     assert (value(fewest), value(most)) == (each.min(), each.max())
@@ -685,10 +685,10 @@ def test_what_a_light_tree_gains_and_costs() -> None:
 def test_what_lamps_and_lobes_together_gain() -> None:
     numbers = said(
         "multiple_importance",
-        r"At equal samples a pixel both have N to N times the error of the better strategy\. .* "
-        r"have up to N times its error in equal time.* less than a fifth of the worse strategy's error in N of the 20 "
-        r"cells\. .* relative MSE\) is N times smaller than that of the worse strategy, and N times smaller than "
-        r"that of the better one\.",
+        r"At equal samples a pixel the combination has N to N times the error of the better strategy\. .* "
+        r"the combination has up to N times the error of the lobe .* In N of the 20 cells it has less than a fifth of "
+        r"the worse strategy's error\. .* relative MSE\) is N times smaller than that of the worse strategy, and N "
+        r"times smaller than that of the better one\.",
     )
     low, high, timed, cells, worse, better = numbers
     found = {

@@ -86,7 +86,7 @@ def test_both_pages_say_the_same() -> None:
     }
     mean, rms = said(
         "radiosity",
-        r"within 1% of convergence, the means agree to 1%, and the squares to 2%\. They are off by N% and N%",
+        r"to 1% in the means and to 2% in the squares; measured were N% and N%\.",
     )
     numbers = accuracy(
         r"the mean of `scenes/radiosity\.yaml` differs from that of path tracing by N%, and squares of 8 by 8 pixels "

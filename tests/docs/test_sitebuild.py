@@ -115,7 +115,7 @@ def test_pictures_are_drawn_ahead_once_for_an_engine(
     monkeypatch.setattr(ahead, "engine_hash", lambda _: "another")
     (site / "index.html").touch()
     assert began() == (0, count)
-    assert [call[1][0] for call in drawn][:2] == [*ahead.LONG]
+    assert [call[1][0] for call in drawn][:3] == [*ahead.LONG, "before_after"]
     assert {call[1][0] for call in drawn} == {*ahead.LONG, *ahead.DRAWN}
     assert codes == []
 

@@ -207,5 +207,6 @@ def spot(name: str, line: int, file: Path) -> str:
 def _live(name: str) -> str:
     """The cell in which code was run, as the notebook numbers it; empty where it isn't of a notebook that is run."""
     shell = running_shell()
-    known = shell.compile.format_code_name(name) if shell is not None else None
+    # IPython 7, which Colab has, keeps no numbers.
+    known = getattr(getattr(shell, "compile", None), "format_code_name", lambda _: None)(name)
     return f"cell {known[1]}" if known and known[0] == "Cell" else ""
