@@ -9,7 +9,7 @@ from tests.browser import tab_to, untroubled
 def test_a_mistake_opens_beside_what_is_right(browser: Any, site: Path) -> None:
     with untroubled(browser) as page:
         page.goto((site / "modules" / "soft_shadows.html").as_uri() + "#light_grid")
-        first = page.locator("#light_grid details.deep")
+        first = page.locator("#light-grid details.deep")
         group = first.locator(".mistakes").first
         assert not group.is_visible()
         alone = first.locator("xpath=preceding::figure[1]")
