@@ -23,7 +23,7 @@ from course.engine.recording.recorder import Recorder
 from course.engine.recording.segments import Segment, segments_of
 from course.engine.recording.stages import RecordedDraws, RecordedEffects, recorded
 from course.engine.render.binding import bind
-from course.engine.render.job import chosen_settings
+from course.engine.render.job import check_whole, chosen_settings
 from course.engine.render.not_written import lines_named
 from course.engine.scene.building.world import compile_scene
 from course.engine.scene.scene import Scene, SceneSettings
@@ -217,12 +217,8 @@ def _check(areas: Sequence[Tile], settings: SceneSettings) -> None:
         )
     for area in areas:
         for number in (area.x, area.y, area.width, area.height):
-            # Of NumPy's as well.
-            if not hasattr(number, "__index__"):
-                raise CourseError(
-                    f"pixel {area.x},{area.y}: {number!r} is no whole number; pixels are counted from 0, from "
-                    "the upper left corner"
-                )
+            more = "; pixels are counted from 0, from the upper left corner"
+            check_whole(f"pixel {area.x},{area.y}", number, more)
         if not (
             area.width > 0 <= area.x <= settings.width - area.width
             and area.height > 0 <= area.y <= settings.height - area.height

@@ -63,6 +63,12 @@ _WHOLE = {"samples": "spp", "seed": "seed", "width": "size", "height": "size"}
 """Settings that are whole numbers, and how `course.render` calls them."""
 
 
+def check_whole(what: str, value: object, more: str = "") -> None:
+    """Raise CourseError for what is neither None nor a whole number, such as NumPy's; ``more`` is said after it."""
+    if value is not None and not hasattr(value, "__index__"):
+        raise CourseError(f"{what}: {value!r} is no whole number{more}")
+
+
 def chosen_settings(
     settings: SceneSettings, ends_early: bool, size: Any = None, **given: Any
 ) -> SceneSettings:
@@ -80,9 +86,7 @@ def chosen_settings(
             )
         given |= {"width": size[0], "height": size[1]}
     for name, own in _WHOLE.items():
-        # Those of NumPy are such numbers, too.
-        if (value := given.get(name)) is not None and not hasattr(value, "__index__"):
-            raise CourseError(f"{own}: {value!r} is no whole number")
+        check_whole(own, given.get(name))
     chosen = replace(
         settings, **{name: value for name, value in given.items() if value is not None}
     )

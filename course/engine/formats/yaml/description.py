@@ -1223,12 +1223,16 @@ class MediumDescription(Map, frozen=True, kw_only=True):
 
 
 class PhotonsDescription(Map, frozen=True, kw_only=True):
-    """Caustics by photons: light of lamps that mirrors and glass send to matte surfaces, beside direct light."""
+    """Caustics by photons: light that mirrors and glass send to matte surfaces, beside direct light.
+
+    With ``gather`` light by way of matte surfaces, too.
+    """
 
     count: Annotated[
         int,
         about(
-            "Photons that leave the lamps in each pass. A million take about two seconds.",
+            "Photons that leave the lamps and the environment, where it lights surfaces, in each pass. A million take"
+            " about two seconds.",
             ge=1,
             le=10**9,
         ),
@@ -1259,11 +1263,29 @@ class PhotonsDescription(Map, frozen=True, kw_only=True):
     cone: Annotated[
         float,
         about(
-            "How flat the filter is: at 1 photons at the radius count nothing, and at 1000 as much as near ones.",
+            "How flat the filter is: at 1 photons at the radius count nothing, and at 1000 as much as near ones. Not"
+            " with nearest.",
             ge=1,
             le=1000,
         ),
     ] = 1.1
+    nearest: Annotated[
+        Annotated[int, msgspec.Meta(ge=1, le=1000)] | None,
+        about(
+            "How many photons count, the nearest within the radius, whose disk is as small as they are near; null for"
+            " all within the radius, by the filter."
+        ),
+    ] = None
+    gather: Annotated[
+        int,
+        about(
+            "Rays that each matte point sends to ask photons where they land (final gathering): light that other matte"
+            " surfaces send on. 0 for none, as in paths, which find that light by themselves. Another `count` photons"
+            " are sent to all of the scene.",
+            ge=0,
+            le=1024,
+        ),
+    ] = 0
 
 
 class AccelerationDescription(Map, frozen=True, kw_only=True):

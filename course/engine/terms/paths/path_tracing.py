@@ -91,7 +91,7 @@ class PathIntegrator(Integrator):
         while piece is not None:
             if piece.draws.cancelled():
                 raise CancelledError
-            rest = self._step(
+            rest = self.step(
                 piece.rays, piece.adds_lights, depth, piece.path_radiance, piece.draws
             )
             if rest is None:
@@ -99,7 +99,7 @@ class PathIntegrator(Integrator):
             depth += 1
             piece = pieces.joined(replace(piece, rays=rest[0], adds_lights=rest[1]), depth, least)
 
-    def _step(
+    def step(
         self,
         rays: Rays,
         adds_lights: Mask | None,

@@ -1,13 +1,15 @@
 """Photons leave the lights of a scene: where, in which direction, and with which power.
 
-Points and spotlights shine at the ball around all mirrors and glass alone, where they stand outside of it; so does the
-sun. Lights that are no surface and have an extent are points spread over it, as shadow rays see them.
+Points and spotlights shine at a target alone, such as the ball around all mirrors and glass, where they stand outside
+of it; so do the sun and the environment. Lights that are no surface and have an extent are points spread over it, as
+shadow rays see them.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from course.engine.core.environment import Environment
 from course.engine.core.hits import Hits
 from course.engine.core.lights.point import DirectionalLight, PointLight
 from course.engine.core.lights.rectangle import RectangleLight
@@ -15,13 +17,17 @@ from course.engine.core.lights.sample import RAISED, Light
 from course.engine.core.lights.sphere import SphereLight
 from course.engine.core.types import Floats32, Functions, Mask
 from course.engine.core.vectors import gather
+from course.engine.terms.environments.sky import SkySampling
 from course.engine.terms.lights.mesh_light import MeshLight
 from course.engine.terms.lights.sampled import SampledSphereLight
 from course.engine.terms.lights.spot_light import SpotLight
 from course.engine.terms.lights.visible_sphere import VisibleSphereLight
+from course.engine.terms.scattering.hemisphere import turned
 
 WIDTH = 6
 """Numbers of a photon that leaves: two of its direction, and the others of its place and side."""
+
+ONE = np.ones(3, np.float32)
 
 EMITTERS = (
     *(PointLight, SpotLight, DirectionalLight, RectangleLight, SphereLight),
@@ -39,8 +45,22 @@ FAR = np.float32(1e4)
 
 
 @dataclass(frozen=True)
+class Daylight:
+    """The environment as a lamp; ``sampling`` chooses directions as it does for surfaces."""
+
+    environment: Environment
+    sampling: SkySampling
+    name: str = "the environment"
+    velocity: None = None
+
+
+Lamp = Light | Daylight
+"""What photons leave."""
+
+
+@dataclass(frozen=True)
 class Target:
-    """A ball around all mirrors and glass; ``reach``: of a ball around the scene, from the same centre."""
+    """A ball around what photons are sent to; ``reach``: of a ball around the scene, from the same centre."""
 
     center: Floats32
     radius: float
@@ -52,14 +72,16 @@ def can_emit(light: Light) -> bool:
     return type(light) in EMITTERS
 
 
-def functions_for(lights: tuple[Light, ...]) -> set[str]:
+def functions_for(lights: tuple[Lamp, ...]) -> set[str]:
     """Names of the module's functions that ``leaving`` calls for some lights."""
     found = set()
     for light in lights:
         surface = isinstance(light, VisibleSphereLight | MeshLight) or getattr(
             light, "emitter", False
         )
-        if isinstance(light, DirectionalLight):
+        if isinstance(light, Daylight):
+            found |= {"emit_cone", "emit_directional"}
+        elif isinstance(light, DirectionalLight):
             found.add("emit_directional")
         elif surface or (isinstance(light, RectangleLight) and light.normal is not None):
             found |= {"emit_area"} | ({"emit_cone"} if hasattr(light, "radius") else set())
@@ -69,7 +91,7 @@ def functions_for(lights: tuple[Light, ...]) -> set[str]:
 
 
 def leaving(
-    light: Light, count: int, u: Floats32, photons: Functions, target: Target
+    light: Lamp, count: int, u: Floats32, photons: Functions, target: Target
 ) -> tuple[Floats32, Floats32, Floats32]:
     """Origins, directions and powers, (3, n) each, of some of a light's ``count`` photons.
 
@@ -78,6 +100,8 @@ def leaving(
     u : (WIDTH, n) float32 in [0, 1)
     photons : functions of the module
     """
+    if isinstance(light, Daylight):
+        return _from_the_sky(light, count, u, photons, target)
     n, way, place = u.shape[1], u[:2], u[2:4]
     strength = PI * light.color
     origin: Floats32
@@ -120,6 +144,27 @@ def leaving(
             raise TypeError(f"photons know no light {type(light).__name__}")
     direction, power = photons.emit_cone(UP, EVERYWHERE, strength, count, way)
     return origin, direction, power
+
+
+def _from_the_sky(
+    sky: Daylight, count: int, u: Floats32, photons: Functions, target: Target
+) -> tuple[Floats32, Floats32, Floats32]:
+    """Photons from infinitely far away, from directions that a surface would choose, which may be turned anyhow.
+
+    ``SkySampling`` weighs radiance for the irradiance over pi of one normal. For each direction the mean over all
+    normals of the cosine, 0 where they are turned away, is a quarter. So the mean of what is weighed is the radiance
+    from everywhere over 4 pi, the solid angle that ``emit_cone`` counts.
+    """
+    normal, everywhere = photons.emit_cone(UP, EVERYWHERE, ONE, 1, u[4:6])
+    toward, weight = sky.sampling.sample(normal, np.ascontiguousarray(u[:2]))
+    radiance = sky.environment.radiance(toward)
+    if weight is not None:
+        radiance = radiance * np.maximum(weight, 0)
+    disk = UP, ONE, np.zeros(3, np.float32), np.float32(target.radius), count
+    start, area = photons.emit_directional(*disk, u[2:4])
+    origin = target.center[:, None] + turned(-toward, *start)
+    origin += toward * np.float32(target.reach)
+    return origin, -toward, np.asarray(radiance * everywhere * area, np.float32)
 
 
 def _aimed(light: PointLight, target: Target) -> tuple[Floats32, float]:

@@ -6,13 +6,16 @@ from typing import Any, Protocol, cast
 
 import numpy as np
 
-from course.engine.core.rays import Draws
+from course.engine.core.rays import Draws, Rays
 from course.engine.core.types import Floats32, Indices
 from course.engine.core.watching import Watcher
 from course.engine.terms.photons.maps import PhotonMap
 
 PHOTONS = "photons"
 """What their light is called."""
+
+GATHERED = "gathered light"
+"""What is called that rays have found where photons are."""
 
 TOLD = 8
 """Photons that are told of for a hit: the strongest, which stand for all."""
@@ -97,3 +100,29 @@ def tell(
     ends = np.full(len(point), -1), np.ones(len(point), np.float32)
     value = (shown.take(point, axis=1) * share).astype(np.float32)
     watcher.sought(path.take(point), PHOTONS, ways, ends, value)
+
+
+def tell_gathered(
+    draws: Draws, rays: Rays, reach: Floats32, path: Indices, shown: Floats32, brought: Floats32
+) -> None:
+    """Tell of the rays that some hits have sent to where photons are.
+
+    Parameters
+    ----------
+    rays : those of a hit after those of the other
+    reach : (rays,) how far each goes
+    path : (n,) of the hits
+    shown : (3, n) radiance that they send to the eye for it
+    brought : (3, rays) what each ray has found
+    """
+    watcher = watcher_of(draws)
+    if watcher is None:
+        return
+    count = rays.size // len(path)
+    whole = brought.reshape(3, -1, count).sum(axis=2)
+    share = brought / np.maximum(np.repeat(whole, count, axis=1), 1e-30)
+    value = (np.repeat(shown, count, axis=1) * share).astype(np.float32)
+    lands = np.isfinite(reach)
+    ways = rays.origin, rays.direction * np.where(lands, reach, np.float32(1))
+    ends = np.full(rays.size, -1), np.where(lands, np.float32(1), np.float32(1e30))
+    watcher.sought(np.repeat(path, count), GATHERED, ways, ends, value)

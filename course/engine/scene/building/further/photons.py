@@ -6,23 +6,34 @@ from dataclasses import replace
 import numpy as np
 
 from course.base.errors import CourseWarning
+from course.base.texts import count
+from course.engine.core.materials import Lookup
 from course.engine.core.motion import MovingAccelerator
 from course.engine.core.types import Floats64, Mask
+from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.loading import Loaded
 from course.engine.functions.effects import Bound
 from course.engine.scene.building.frame import Frame
 from course.engine.scene.building.things import Things
-from course.engine.terms.photons.emission import Target, can_emit, functions_for
-from course.engine.terms.photons.stage import MOST, PhotonSettings, PhotonStage
+from course.engine.terms.photons.emission import (
+    Daylight,
+    Lamp,
+    Target,
+    can_emit,
+    functions_for,
+)
+from course.engine.terms.photons.maps import Estimate
+from course.engine.terms.photons.passes import MOST
+from course.engine.terms.photons.stage import PhotonSettings, PhotonStage
 from course.engine.terms.world import FullWorld
 
 KEY = ("photons",)
 
-MANY = 20_000_000
+LONG = 20_000_000
 """Photons of a pass from which on the time that they take is told."""
 
-SHARE = 20
-"""Radii of the first pass in that of the ball around mirrors and glass."""
+SECONDS = 2e-6
+"""Of one photon."""
 
 
 def compiled(
@@ -30,46 +41,76 @@ def compiled(
 ) -> FullWorld:
     """The world with its photons.
 
-    Raises SceneError: there is fog; names the key.
+    Raises SceneError: there is fog, paths are to gather, a filter is asked for that isn't used; names the key.
     """
     del things
     scene = loaded.description
     asked = scene.photons
     assert asked is not None
-    if scene.media:
-        raise loaded.document.error(
-            KEY, "expected null in a scene with media: photons know light between surfaces alone"
-        )
+    _check(loaded, asked, world)
     materials = world.materials
     optical = np.asarray(materials.refracts | (materials.mirror.max(axis=0) > 0))
-    lights = tuple(light for light in world.lights if can_emit(light))
-    target = _target(world, optical)
-    if target is None or not lights or not materials.diffuses.any():
-        nothing = "no light sends any"
-        if target is None:
+    lights: tuple[Lamp, ...] = tuple(light for light in world.lights if can_emit(light))
+    if world.sky is not None and world.environment is not None:
+        lights = (*lights, Daylight(world.environment, world.sky))
+    target = _ball(world, optical)
+    if (target is None and not asked.gather) or not lights or not materials.diffuses.any():
+        nothing, nor = "no light sends any", "there are no caustics"
+        if target is None and not asked.gather:
             nothing = "nothing mirrors or refracts"
         elif not materials.diffuses.any():
-            nothing = "nothing is matte"
-        _tell(loaded, f"{nothing}: there are no caustics, and no photons are sent")
+            nothing, nor = "nothing is matte", "there is nothing that they light"
+        _tell(loaded, f"{nothing}: {nor}, and no photons are sent")
         return world
     _tell_what_is_left_out(loaded, world)
-    radius = target.radius / SHARE if asked.radius is None else asked.radius / frame.scale
-    settings = PhotonSettings(asked.count, radius, asked.alpha, asked.cone, asked.samples)
-    names = functions_for(lights) | {"roulette", "stored", "cone_weights", "shrunk_radius"}
+    radius = None if asked.radius is None else asked.radius / frame.scale
+    estimate = Estimate(asked.cone, asked.nearest)
+    known = asked.count, radius, asked.alpha, estimate, asked.samples, asked.gather
+    names = functions_for(lights) | {"roulette", "stored", "shrunk_radius"} | estimate.functions
+    names |= {"final_gather"} if asked.gather else set()
     module = bound.functions("photon_mapping", *sorted(names), asked_by=KEY)
     where = f"{loaded.document.where(KEY)}: photons"
-    arrays = materials.diffuses, materials.refracts
-    stage = PhotonStage(settings, lights, world.motion, *arrays, target, module, where)
+    everything = _ball(world, np.ones_like(optical))
+    assert everything is not None
+    stage = PhotonStage(
+        PhotonSettings(*known),
+        lights,
+        world.motion,
+        materials.diffuses,
+        materials.refracts,
+        Lookup(materials.diffuse),
+        target,
+        everything,
+        module,
+        where,
+    )
     combining = world.combining if world.paths is None else None
     return replace(world, wraps=(*world.wraps, stage), combining=combining)
 
 
-def _target(world: FullWorld, optical: Mask) -> Target | None:
-    """The ball around all triangles that mirror or refract; None where there are none."""
+def _check(loaded: Loaded, asked: d.PhotonsDescription, world: FullWorld) -> None:
+    """Refuse what isn't done together with photons, or would have no effect."""
+    document = loaded.document
+    if loaded.description.media:
+        raise document.error(
+            KEY, "expected null in a scene with media: photons know light between surfaces alone"
+        )
+    if asked.gather and world.paths is not None:
+        raise document.unexpected(
+            (*KEY, "gather"), "0 where the integrator is path: its own rays find what others gather"
+        )
+    if asked.nearest is not None and "cone" in document.value(KEY):
+        raise document.error(
+            (*KEY, "cone"), "expected none beside nearest: the nearest photons count alike"
+        )
+
+
+def _ball(world: FullWorld, materials: Mask) -> Target | None:
+    """The ball around all triangles of some materials (M,); None where there are none."""
     triangles = world.surface.triangles
     planes, edges = (a.astype(np.float64) for a in (triangles.planes, triangles.edges))
     corners = np.stack((planes[:, :3], planes[:, :3] + edges[:, :3], planes[:, :3] + edges[:, 3:6]))
-    shines = optical.take(triangles.material)
+    shines = materials.take(triangles.material)
     if not shines.any():
         return None
     sweep = np.zeros((len(planes), 3))
@@ -91,10 +132,12 @@ def _farthest(points: Floats64, center: Floats64) -> float:
 def _tell_what_is_left_out(loaded: Loaded, world: FullWorld) -> None:
     asked = loaded.description.photons
     assert asked is not None
-    if asked.count >= MANY:
+    if asked.count >= LONG:
+        took = round(asked.count * SECONDS * (2 if asked.gather else 1))
+        long = count(took, "second") if took < 120 else count(round(took / 60), "minute")
         _tell(
             loaded,
-            f"{asked.count:,} photons in each pass take about {asked.count * 2e-6 / 60:.0f} minutes a pass; at most"
+            f"{asked.count:,} photons in each pass take about {long} a pass; at most"
             f" {MOST:,} of a pass are kept, and then no more are sent",
         )
     others = [light.name for light in world.lights if not can_emit(light)]
@@ -103,8 +146,6 @@ def _tell_what_is_left_out(loaded: Loaded, world: FullWorld) -> None:
             loaded,
             f"{', '.join(others)}: it isn't known where photons leave; no caustics of its light",
         )
-    if world.paths is not None and world.environment is not None:
-        _tell(loaded, "no photons come from the environment; caustics of its light are left out")
     combined = loaded.description.integrator.gloss_sampling != "automatic"
     if world.paths is not None and world.combining is not None and combined:
         _tell(

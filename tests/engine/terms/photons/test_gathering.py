@@ -1,0 +1,183 @@
+"""Light by way of matte surfaces: final gathering in a closed ball, beside paths in a box, and by nearest photons."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course import render
+from course.base.errors import SceneError
+from course.engine.core.rays import RAYS
+from course.engine.core.types import Floats64
+from course.engine.recording.recording import record
+from course.engine.scene.scene import Scene
+from tests.conftest import MakeScene
+from tests.engine.terms.photons.parts import FLOOR, GLASS, GLOBE, ball, caustics, pictures
+
+ALBEDO = np.array([0.8, 0.5, 0.2])
+
+
+def closed_ball(make_scene: MakeScene, **more: Any) -> Scene:
+    """Its inside, lit from the middle: all places are alike, and there is no edge at which photons are missing."""
+    known: dict[str, Any] = {
+        "camera": {"eye": [0, 0, 0.5], "look_at": [0, 0.1, 0], "vertical_fov": 60},
+        "film": {"width": 6, "height": 6},
+        "materials": {"wall": {"color": ALBEDO.tolist()}},
+        "objects": [{"shape": "sphere", "material": "wall", "radius": 1, "segments": 96}],
+        "lights": [{"type": "point", "position": [0, 0, 0], "intensity": 2}],
+        "integrator": {"max_depth": 4},
+        "photons": {"count": 20_000, "radius": 0.1, "gather": 4},
+    }
+    return make_scene(**known | more)
+
+
+@pytest.mark.parametrize("estimate", [{}, {"nearest": 40}], ids=["radius", "nearest"])
+@pytest.mark.parametrize("depth", [1, 4])
+def test_a_closed_ball_is_as_bright_as_its_series(
+    make_scene: MakeScene, depth: int, estimate: dict[str, int]
+) -> None:
+    """Each bounce brings albedo times what the one before has brought: E = I (1 + a + ... + a^depth)."""
+    photons = {"count": 20_000, "radius": 0.1, "gather": 4} | estimate
+    scene = closed_ball(make_scene, integrator={"max_depth": depth}, photons=photons)
+    found = render(scene, spp=32).linear.mean(axis=(0, 1), dtype=np.float64)
+    series = sum(ALBEDO**k for k in range(depth + 1))
+    expected = ALBEDO / np.pi * 2 * series
+    # 5000 rays in 36 pixels see 20,000 photons, each channel with an error of about a percent of what they bring. The
+    # k-th nearest of k photons lies at the edge of its disk, which makes the estimate larger by 1 / (k - 1).
+    above = 1 / 39 if estimate else 0
+    assert (found <= expected * (1.01 + above)).all()
+    assert (found >= expected * 0.99).all()
+
+
+def box(make_scene: MakeScene, kind: str, **more: Any) -> Scene:
+    """A room with a red and a green wall, open to the camera, and a box in it."""
+
+    def wall(material: str, *transform: dict[str, Any]) -> dict[str, Any]:
+        size = {"shape": "quad", "width": 2, "depth": 2}
+        return size | {"material": material, "transform": list(transform)}
+
+    def turned(x: float, y: float, z: float, degrees: float) -> dict[str, Any]:
+        return {"rotate": {"axis": [x, y, z], "degrees": degrees}}
+
+    walls = [
+        wall("white", {"translate": [0, -1, 0]}),
+        wall("white", turned(1, 0, 0, 180), {"translate": [0, 1, 0]}),
+        wall("white", turned(1, 0, 0, 90), {"translate": [0, 0, -1]}),
+        wall("red", turned(0, 0, 1, -90), {"translate": [-1, 0, 0]}),
+        wall("green", turned(0, 0, 1, 90), {"translate": [1, 0, 0]}),
+    ]
+    block = {"shape": "box", "material": "white", "size": [0.6, 1, 0.6]}
+    lamp = {"type": "rectangle", "corner": [-0.3, 0.98, -0.3], "edge_u": [0.6, 0, 0]}
+    known: dict[str, Any] = {
+        "camera": {"eye": [0, 0, 3.4], "look_at": [0, 0, 0], "vertical_fov": 40},
+        "film": {"width": 6, "height": 6},
+        "materials": {
+            "white": {"color": 0.7},
+            "red": {"color": [0.6, 0.1, 0.1]},
+            "green": {"color": [0.1, 0.5, 0.1]},
+            "m": GLASS,
+        },
+        "objects": [*walls, block | {"transform": [{"translate": [0.3, -0.5, -0.2]}]}],
+        "lights": [lamp | {"edge_v": [0, 0, 0.6], "radiance": 10}],
+        "integrator": {"type": kind, "max_depth": 4},
+    }
+    return make_scene(**known | more)
+
+
+def test_gathered_light_is_that_of_paths(make_scene: MakeScene) -> None:
+    by_paths = pictures(box(make_scene, "path"), 64, 4)
+    photons = {"count": 40_000, "radius": 0.04, "gather": 4}
+    found = pictures(box(make_scene, "distribution", photons=photons), 16, 4)
+    error = np.hypot(by_paths.std(axis=0, ddof=1), found.std(axis=0, ddof=1)) / 2
+    off = np.abs(by_paths.mean(axis=0) - found.mean(axis=0))
+    print(off / by_paths.mean(axis=0), error / by_paths.mean(axis=0))
+    assert (off <= 6 * error + 0.004 * by_paths.mean(axis=0)).all()
+
+
+def test_memory_is_bounded_whatever_is_gathered(make_scene: MakeScene, monkeypatch: Any) -> None:
+    """Rays are followed RAYS at a time; those of a hit stay together."""
+    from course.engine.terms.photons import gathering
+
+    most = []
+    rays = gathering.Gathering._rays
+
+    def seen(self: Any, *arguments: Any) -> Any:
+        made = rays(self, *arguments)
+        most.append(made.size)
+        return made
+
+    monkeypatch.setattr(gathering.Gathering, "_rays", seen)
+    photons = {"count": 1000, "gather": 1000}
+    scene = closed_ball(make_scene, photons=photons, integrator={"max_depth": 1})
+    render(scene, spp=4)
+    assert RAYS // 2 < max(most) <= RAYS
+    assert len(most) > 1
+
+
+def test_gathering_is_the_same_however_the_picture_is_rendered(make_scene: MakeScene) -> None:
+    scene = closed_ball(make_scene, film={"width": 24, "height": 20})
+    one, other = (render(scene, spp=16, threads=n).linear for n in (1, 2))
+    assert np.array_equal(one, other)
+
+
+def lit(scene: Scene) -> Floats64:
+    return np.asarray(render(scene, spp=16).linear.mean(axis=(0, 1)), np.float64)
+
+
+def test_nearest_photons_make_the_caustic_that_a_filter_makes(make_scene: MakeScene) -> None:
+    """A beam through a ball, averaged over the floor: its power; the disk of 60 is larger by a 59th at most."""
+    beam = {"type": "directional", "direction": [0, -1, 0], "irradiance": 2}
+    parts: dict[str, Any] = {"lights": [beam], "film": {"width": 24, "height": 24}}
+    by_filter, by_nearest, without = (
+        lit(caustics(make_scene, photons=photons, **parts))
+        for photons in (
+            {"count": 50_000, "radius": 0.05},
+            {"count": 50_000, "radius": 0.05, "nearest": 60},
+            None,
+        )
+    )
+    brought = (by_nearest - without) / (by_filter - without)
+    print(brought)
+    assert ((brought > 0.99) & (brought < 1.03)).all()
+
+
+def test_rays_of_a_pixel_tell_of_gathered_light_and_add_up(make_scene: MakeScene) -> None:
+    scene = closed_ball(make_scene)
+    recording = record(scene, 1, 1, spp=16)
+    total = sum(np.array(one.radiance) for one in recording.segments) / 16
+    np.testing.assert_allclose(total, render(scene, spp=16).linear[1, 1], rtol=1e-3)
+    told = [one for one in recording.segments if one.light == "gathered light"]
+    # Four rays for each sample, all of which end on the ball.
+    assert len(told) == 4 * 16
+
+
+@pytest.mark.parametrize(
+    ("photons", "integrator", "said"),
+    [
+        ({"gather": 2}, {"type": "path"}, r"photons.gather is 2: expected 0 where .* path"),
+        ({"nearest": 5, "cone": 1.5}, {}, r"photons.cone: expected none beside nearest"),
+        ({"nearest": 0}, {}, r"photons.nearest is 0"),
+    ],
+)
+def test_what_is_refused(
+    make_scene: MakeScene, photons: dict[str, Any], integrator: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(SceneError, match=said):
+        caustics(make_scene, lights=[GLOBE], photons=photons, integrator=integrator)
+
+
+def test_functions_that_are_asked_for_are_those_that_are_called(make_scene: MakeScene) -> None:
+    parts: dict[str, Any] = {"objects": [FLOOR, ball()], "lights": [GLOBE]}
+
+    def needs(**photons: Any) -> set[str]:
+        scene = caustics(make_scene, photons=photons, **parts)
+        return {
+            need.function.split(".")[1]
+            for need in scene.compiled.needs
+            if "photon" in need.function
+        }
+
+    always = {"emit_area", "emit_cone", "roulette", "stored", "shrunk_radius"}
+    assert needs() == always | {"cone_weights"}
+    assert needs(nearest=5) == always | {"density_estimate"}
+    assert needs(gather=2) == always | {"cone_weights", "final_gather"}
