@@ -1184,6 +1184,13 @@ class DensityNoise(Map, frozen=True, kw_only=True):
     ] = 64
 
 
+class FogSphere(Map, frozen=True, kw_only=True):
+    """A ball of fog."""
+
+    center: Annotated[Vector, about("Its middle.", "world unit")]
+    radius: Annotated[float, about("Its radius.", "world unit", gt=0)]
+
+
 class MediumDescription(Map, frozen=True, kw_only=True):
     """Fog, smoke or dust: what fills space between surfaces, and glass that lies in it too."""
 
@@ -1208,10 +1215,13 @@ class MediumDescription(Map, frozen=True, kw_only=True):
     box: Annotated[
         tuple[Vector, Vector] | None,
         about(
-            "The lowest and the highest corner of what it fills; null for the whole scene and beyond.",
+            "The lowest and the highest corner of what it fills; without it and sphere, the whole scene and beyond.",
             "world unit",
         ),
     ] = None
+    sphere: Annotated[FogSphere | None, about("The ball that it fills, in the place of a box.")] = (
+        None
+    )
     grid: Annotated[
         str | None,
         about(
@@ -1350,7 +1360,7 @@ class SceneDescription(Map, frozen=True, kw_only=True):
     lights: Annotated[tuple[Light, ...], about("The lights.")] = ()
     objects: Annotated[tuple[Object, ...], about("The objects.")] = ()
     media: Annotated[
-        tuple[MediumDescription, ...], about("What fills space; boxes must not overlap.")
+        tuple[MediumDescription, ...], about("What fills space; boxes and balls of it must not overlap.")
     ] = ()
     photons: Annotated[
         PhotonsDescription | None,

@@ -1,10 +1,11 @@
-"""Fog in boxes: where rays are in it, how much light gets through, where light is scattered and how much of it."""
+"""Fog in boxes and balls: where rays are in it, how much light gets through, where it is scattered and how much."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from course.engine.core.types import Floats32, Functions, Mask
+from course.engine.terms.media.bounds import Ball, Box
 from course.engine.terms.media.tracking import DensityGrid
 
 EVEN = np.full(3, 1 / 3, np.float32)
@@ -16,20 +17,19 @@ NOTHING_LEFT = 100.0
 
 @dataclass(frozen=True)
 class Fog:
-    """A medium in a box that lies along the axes.
+    """A medium within bounds.
 
     Attributes
     ----------
-    low, high : (3,) float32, corners of the box; infinite where it has no end
+    bounds : where it is
     extinction : (3,) float32 [1 / unit of the compiled scene]; with a grid, what it is times the grid's density
     albedo : (3,) float32, the share of what is stopped that is scattered
     g : mean cosine of the phase function
     media : functions of the module
-    grid : densities; None where the medium is even
+    grid : densities, of a box; None where the medium is even
     """
 
-    low: Floats32
-    high: Floats32
+    bounds: Box | Ball
     extinction: Floats32
     albedo: Floats32
     g: float
@@ -44,21 +44,15 @@ class Fog:
     def span(
         self, origin: Floats32, direction: Floats32, limit: Floats32
     ) -> tuple[Floats32, Floats32]:
-        """Where rays (3, n) with unit directions enter the box, and how far they are in it, (n,); 0 if not at all."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            one = (self.low[:, None] - origin) / direction
-            other = (self.high[:, None] - origin) / direction
-            # Not a number: the box has no end there, or the ray goes along it; or it lies in a face.
-            bounds = ~np.isnan(one + other)
-        first = np.minimum(one, other).max(axis=0, initial=0, where=bounds)
-        last = np.maximum(one, other).min(axis=0, initial=np.inf, where=bounds)
+        """Where rays (3, n) with unit directions come into it, and how far they are in it, (n,); 0 if not at all."""
+        first, last = self.bounds.between(origin, direction)
         length = np.minimum(last, limit) - first
         inside = length > 0
         start = np.where(inside, first, 0).astype(np.float32)
         return start, np.where(inside, np.minimum(length, self._end()), 0).astype(np.float32)
 
     def transmittance(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Floats32:
-        """Share (3, n) of the light that gets through the box, along unit directions up to limits (n,)."""
+        """Share (3, n) of the light that gets through, along unit directions up to limits (n,)."""
         start, length = self.span(origin, direction, limit)
         if self.grid is None:
             found: Floats32 = self.media.transmittance(self.extinction, length)
@@ -74,7 +68,7 @@ class Fog:
     def flights(
         self, origin: Floats32, direction: Floats32, start: Floats32, length: Floats32, u: Floats32
     ) -> tuple[Floats32, Mask, Floats32]:
-        """Flights from where rays enter the box, through at most ``length`` (n,) of it.
+        """Flights from where rays come into it, through at most ``length`` (n,) of it.
 
         Returns
         -------
@@ -98,19 +92,24 @@ class Fog:
         return start + flown, stopped, weight
 
     def density_at(self, points: Floats32) -> Floats32 | None:
-        """What the extinction is times, (n,), at points (3, n) of the box; None where the medium is even."""
+        """What the extinction is times, (n,), at points (3, n) within; None where the medium is even."""
         if self.grid is None:
             return None
-        size = (self.high - self.low)[:, None]
-        found: Floats32 = self.grid.at((points - self.low[:, None]) / size)
+        low, size = self._box()
+        found: Floats32 = self.grid.at((points - low) / size)
         return np.asarray(found / self.extinction.max(), np.float32)
 
     def _in_cube(
         self, origin: Floats32, direction: Floats32, start: Floats32
     ) -> tuple[Floats32, Floats32]:
         """Origins at the box, and directions, in the cube that the box is to its grid."""
-        size = (self.high - self.low)[:, None]
-        return (origin + start * direction - self.low[:, None]) / size, direction / size
+        low, size = self._box()
+        return (origin + start * direction - low) / size, direction / size
+
+    def _box(self) -> tuple[Floats32, Floats32]:
+        """Lowest corner and size (3, 1) of what a grid fills."""
+        assert isinstance(self.bounds, Box)
+        return self.bounds.low[:, None], (self.bounds.high - self.bounds.low)[:, None]
 
     def _end(self) -> np.float32:
         thinnest = self.extinction[self.extinction > 0]
@@ -119,7 +118,7 @@ class Fog:
 
 @dataclass(frozen=True)
 class Fogs:
-    """Boxes of fog that don't overlap."""
+    """Boxes and balls of fog that don't overlap."""
 
     all: tuple[Fog, ...] = ()
 

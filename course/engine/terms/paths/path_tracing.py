@@ -91,9 +91,7 @@ class PathIntegrator(Integrator):
         while piece is not None:
             if piece.draws.cancelled():
                 raise CancelledError
-            rest = self.step(
-                piece.rays, piece.adds_lights, depth, piece.path_radiance, piece.draws
-            )
+            rest = self.step(piece.rays, piece.adds_lights, depth, piece.path_radiance, piece.draws)
             if rest is None:
                 return
             depth += 1

@@ -65,6 +65,42 @@ def test_a_slab_lets_through_what_it_should(make_scene: MakeScene, kind: str) ->
 
 
 @both
+@pytest.mark.parametrize("aside", [0.0, 0.7, 1.1])
+def test_a_ball_lets_through_what_its_chord_says(
+    make_scene: MakeScene, kind: str, aside: float
+) -> None:
+    """Of a ball that is passed at a distance h from its middle a ray goes through 2 sqrt(r^2 - h^2)."""
+    medium = {"extinction": SIGMA.tolist(), "albedo": 0}
+    scene = make_scene(
+        camera=AHEAD,
+        materials=BRIGHT,
+        objects=[SCREEN],
+        media=[medium | {"sphere": {"center": [aside, 0, 0], "radius": 1}}],
+        sampler=ONE,
+        integrator=kinds(kind),
+    )
+    assert_mean(render(scene), np.exp(-2 * SIGMA * np.sqrt(max(1 - aside**2, 0))), 1e-5)
+
+
+@both
+def test_a_camera_in_a_ball_of_fog(make_scene: MakeScene, kind: str) -> None:
+    """The eye is half a unit before its middle, and another ball touches it from behind."""
+    medium = {"extinction": SIGMA.tolist(), "albedo": 0}
+    scene = make_scene(
+        camera=AHEAD,
+        materials=BRIGHT,
+        objects=[SCREEN],
+        media=[
+            medium | {"sphere": {"center": [0, 0, 2.5], "radius": 1}},
+            medium | {"sphere": {"center": [0, 0, 0.5], "radius": 1}},
+        ],
+        sampler=ONE,
+        integrator=kinds(kind),
+    )
+    assert_mean(render(scene), np.exp(-3.5 * SIGMA), 1e-5)
+
+
+@both
 def test_boxes_one_behind_the_other_and_a_camera_in_fog(make_scene: MakeScene, kind: str) -> None:
     """The eye stands in the middle of the first box."""
     near = fog(albedo=0, box=[[-1, -1, 1], [1, 1, 5]])
@@ -109,6 +145,30 @@ def test_fog_that_absorbs_nothing_is_invisible_in_even_light(
         integrator={"type": "path", "max_depth": 1000, "roulette": None},
     )
     np.testing.assert_allclose(render(scene).linear, 1, atol=2e-5)
+
+
+@pytest.mark.parametrize("where", ["ball", "in glass", "around glass", "partly in glass"])
+def test_a_ball_of_fog_is_invisible_in_even_light(make_scene: MakeScene, where: str) -> None:
+    """The furnace again, by itself and with clear glass, which mirrors and lets through what comes."""
+    ball = {"center": [0, 0, 0], "radius": 0.8}
+    glass = {"shape": "sphere", "material": "m", "segments": 32}
+    size = {"in glass": 0.85, "around glass": 0.4, "partly in glass": 0.6}.get(where)
+    if where == "partly in glass":
+        ball = ball | {"center": [0.5, 0.2, 0]}
+    known: dict[str, Any] = {
+        "camera": AHEAD | {"vertical_fov": 30},
+        "environment": {"type": "constant", "radiance": 1, "lights": True},
+        "media": [{"extinction": 3, "g": 0.4, "sphere": ball}],
+        "materials": {"m": {"color": 0, "dielectric": {}}},
+        "sampler": ONE | {"samples": 4},
+        "integrator": {"type": "path", "max_depth": 1000, "roulette": None},
+    }
+    if size is None:
+        scene = make_scene(**known)
+    else:
+        with pytest.warns(CourseWarning, match="in the glass as well"):
+            scene = make_scene(**known, objects=[glass | {"radius": size}])
+    np.testing.assert_allclose(render(scene).linear, 1, atol=1e-3)
 
 
 def quadrature(of_light: Any, albedo: float, g: float) -> np.ndarray:
@@ -261,11 +321,32 @@ def test_densities_of_a_million_and_of_nothing(make_scene: MakeScene, kind: str)
         np.testing.assert_allclose(render(scene).linear, expected, atol=1e-30)
 
 
+BALL = {"extinction": 1, "sphere": {"center": [1.4, 1.4, 1.4], "radius": 0.9}}
+"""It overlaps the cube at a corner, which is 0.4 sqrt(3) = 0.69 from its middle."""
+
+
+def test_balls_may_touch_boxes_and_each_other(make_scene: MakeScene) -> None:
+    """The corner (1, 1, 1) is 0.86 from the middle of the first ball, whose box reaches into it."""
+    near = {"extinction": 1, "sphere": {"center": [1.5, 1.5, 1.5], "radius": 0.86}}
+    other = {"extinction": 1, "sphere": {"center": [3.4, 1.5, 1.5], "radius": 1.04}}
+    make_scene(media=[fog(), near, other])
+
+
 @pytest.mark.parametrize(
     ("media", "says"),
     [
         ([fog(), fog()], r"media\[1\].*overlaps media\[0\]"),
         ([fog(), fog(box=None)], r"media\[1\].*overlaps media\[0\].*is alone"),
+        ([fog(), BALL], r"media\[1\].*overlaps media\[0\]"),
+        ([BALL, fog(box=None)], r"media\[1\].*overlaps media\[0\].*is alone"),
+        ([BALL, BALL | {"sphere": {"center": [2.9, 2, 1.5], "radius": 1}}], r"overlaps media\[0\]"),
+        ([fog() | BALL | {"box": CUBE}], r"media\[0\].*both box and sphere"),
+        ([BALL | {"extinction": 1, "noise": {}}], r"media\[0\].noise.*box"),
+        ([BALL | {"sphere": {"center": [0, 0, 0], "radius": 0}}], r"media\[0\].sphere.radius"),
+        (
+            [BALL | {"sphere": {"center": [9, 0, 0], "radius": 1e-5}}],
+            r"media\[0\].sphere.*along x.*expected at least 0.0001",
+        ),
         ([fog(albedo=1.01)], r"media\[0\].albedo"),
         ([fog(g=1)], r"media\[0\].g"),
         ([fog(g=-1)], r"media\[0\].g"),

@@ -90,7 +90,6 @@ def test_gathered_light_is_that_of_paths(make_scene: MakeScene) -> None:
     found = pictures(box(make_scene, "distribution", photons=photons), 16, 4)
     error = np.hypot(by_paths.std(axis=0, ddof=1), found.std(axis=0, ddof=1)) / 2
     off = np.abs(by_paths.mean(axis=0) - found.mean(axis=0))
-    print(off / by_paths.mean(axis=0), error / by_paths.mean(axis=0))
     assert (off <= 6 * error + 0.004 * by_paths.mean(axis=0)).all()
 
 
@@ -137,7 +136,6 @@ def test_nearest_photons_make_the_caustic_that_a_filter_makes(make_scene: MakeSc
         )
     )
     brought = (by_nearest - without) / (by_filter - without)
-    print(brought)
     assert ((brought > 0.99) & (brought < 1.03)).all()
 
 

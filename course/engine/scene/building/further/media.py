@@ -19,6 +19,7 @@ from course.engine.formats.yaml.loading import Loaded, bytes_of_files
 from course.engine.functions.effects import Bound
 from course.engine.scene.building.frame import Frame, in_range, in_reach
 from course.engine.scene.building.things import Things
+from course.engine.terms.media.bounds import Ball, Box, Corners, Sphere, overlap
 from course.engine.terms.media.fog import Fog, Fogs
 from course.engine.terms.media.lamps import Lamps
 from course.engine.terms.media.stage import MediaStage
@@ -38,23 +39,21 @@ def compiled(
 ) -> FullWorld:
     """The world with its fog.
 
-    Raises SceneError: boxes that are empty or overlap, grids that can't be read, coloured extinction of a grid, glass
-    that absorbs within fog; names the key.
+    Raises SceneError: boxes that are empty, boxes or balls that overlap, grids that can't be read, coloured extinction
+    of a grid, glass that absorbs within fog; names the key.
     """
     scene = loaded.description
-    boxes = [_box(loaded, number) for number in range(len(scene.media))]
-    for (one, a), (other, b) in combinations(enumerate(boxes), 2):
-        if (np.maximum(a[0], b[0]) < np.minimum(a[1], b[1])).all():
+    places = [_place(loaded, number) for number in range(len(scene.media))]
+    for (one, a), (other, b) in combinations(enumerate(places), 2):
+        if overlap(a, b):
+            alone = "; what fills the whole scene is alone" if _endless(a) or _endless(b) else ""
             raise loaded.document.error(
                 ("media", other),
-                f"it overlaps media[{one}]: boxes of fog may touch, but not overlap"
-                + (
-                    "; what fills the whole scene is alone" if not np.isfinite([a, b]).all() else ""
-                ),
+                f"it overlaps media[{one}]: boxes and balls of fog may touch, but not overlap{alone}",
             )
-    fogs = [_fog(loaded, frame, bound, n, box, world) for n, box in enumerate(boxes)]
-    _check_glass(loaded, things, boxes)
-    _warn_of_endless(loaded, boxes, world)
+    fogs = [_fog(loaded, frame, bound, n, place, world) for n, place in enumerate(places)]
+    _check_glass(loaded, things, places)
+    _warn_of_endless(loaded, places, world)
     if world.combining is not None and scene.integrator.gloss_sampling != "automatic":
         _warn(
             loaded,
@@ -74,9 +73,20 @@ def compiled(
     return replace(world, wraps=(*world.wraps, MediaStage(there, lamps)), combining=None)
 
 
-def _box(loaded: Loaded, number: int) -> Floats64:
-    """Corners (2, 3), infinite where the medium fills all."""
-    box = loaded.description.media[number].box
+def _endless(place: Corners | Sphere) -> bool:
+    return not (isinstance(place, tuple) or np.isfinite(place).all())
+
+
+def _place(loaded: Loaded, number: int) -> Corners | Sphere:
+    """What a medium fills; a box without ends for everything."""
+    medium = loaded.description.media[number]
+    box = medium.box
+    if medium.sphere is not None:
+        if box is not None:
+            raise loaded.document.error(
+                ("media", number), "both box and sphere are given: expected one of them"
+            )
+        return np.array(medium.sphere.center, np.float64), medium.sphere.radius
     if box is None:
         return np.array([[-np.inf] * 3, [np.inf] * 3])
     corners = np.array(box, np.float64)
@@ -89,7 +99,12 @@ def _box(loaded: Loaded, number: int) -> Floats64:
 
 
 def _fog(
-    loaded: Loaded, frame: Frame, bound: Bound, number: int, box: Floats64, world: FullWorld
+    loaded: Loaded,
+    frame: Frame,
+    bound: Bound,
+    number: int,
+    place: Corners | Sphere,
+    world: FullWorld,
 ) -> Fog:
     medium, path = loaded.description.media[number], ("media", number)
     extinction = in_range(
@@ -99,7 +114,7 @@ def _fog(
         "the extinction",
         "a scene's size",
     )
-    densities = _densities(loaded, number, box)
+    densities = _densities(loaded, number, place)
     albedo = rgb(medium.albedo).astype(np.float32)
     scatters = bool(albedo.any())
     names = {"ratio_tracking"} if densities is not None else {"transmittance"}
@@ -124,12 +139,27 @@ def _fog(
         )
         if not largest:
             extinction, grid = np.zeros(3, np.float32), None
-    low, high = (frame.position(corner) if np.isfinite(corner).all() else corner for corner in box)
-    if np.isfinite(box).all():
-        in_reach(np.stack((low, high)), loaded, (*path, "box"), "a corner")
-        _check_edges(low, high, loaded, (*path, "box"))
-    corners = low.astype(np.float32), high.astype(np.float32)
-    return Fog(*corners, extinction, albedo, medium.g, functions, grid)
+    bounds = _bounds(loaded, frame, number, place)
+    return Fog(bounds, extinction, albedo, medium.g, functions, grid)
+
+
+def _bounds(loaded: Loaded, frame: Frame, number: int, place: Corners | Sphere) -> Box | Ball:
+    """What a medium fills in the compiled scene."""
+    if isinstance(place, tuple):
+        path = ("media", number, "sphere")
+        center, radius = frame.position(place[0]), place[1] / frame.scale
+        ends = np.stack((center - radius, center + radius))
+        in_reach(ends, loaded, path, "an end")
+        _check_edges(*ends, loaded, path)
+        return Ball(center.astype(np.float32), radius)
+    path = ("media", number, "box")
+    low, high = (
+        frame.position(corner) if np.isfinite(corner).all() else corner for corner in place
+    )
+    if not _endless(place):
+        in_reach(np.stack((low, high)), loaded, path, "a corner")
+        _check_edges(low, high, loaded, path)
+    return Box(low.astype(np.float32), high.astype(np.float32))
 
 
 def _check_edges(low: Floats64, high: Floats64, loaded: Loaded, path: KeyPath) -> None:
@@ -144,7 +174,7 @@ def _check_edges(low: Floats64, high: Floats64, loaded: Loaded, path: KeyPath) -
             )
 
 
-def _densities(loaded: Loaded, number: int, box: Floats64) -> Floats32 | None:
+def _densities(loaded: Loaded, number: int, box: Corners | Sphere) -> Floats32 | None:
     """(X, Y, Z) what the extinction is times; None where it is even."""
     medium, path = loaded.description.media[number], ("media", number)
     if medium.grid is None and medium.noise is None:
@@ -152,7 +182,7 @@ def _densities(loaded: Loaded, number: int, box: Floats64) -> Floats32 | None:
     asks = "grid" if medium.grid is not None else "noise"
     if medium.grid is not None and medium.noise is not None:
         raise loaded.document.error(path, "both grid and noise are given: expected one of them")
-    if medium.box is None:
+    if medium.box is None or isinstance(box, tuple):
         raise loaded.document.error((*path, asks), "densities need a box that they fill; give box")
     if len(set(rgb(medium.extinction).tolist())) > 1:
         raise loaded.document.error(
@@ -218,16 +248,12 @@ def _read(loaded: Loaded, number: int, file: str) -> Floats32:
     return np.ascontiguousarray(values, np.float32)
 
 
-def _check_glass(loaded: Loaded, things: Things, boxes: list[Floats64]) -> None:
+def _check_glass(loaded: Loaded, things: Things, places: list[Corners | Sphere]) -> None:
     """Refuse glass that absorbs within fog, and tell of other glass: what is within it isn't left out."""
     scene = loaded.description
     for number, (thing, bounds) in enumerate(zip(things.described, things.bounds, strict=True)):
         glass = scene.materials[thing.material].dielectric
-        within = [
-            n
-            for n, box in enumerate(boxes)
-            if (np.maximum(box[0], bounds[0]) < np.minimum(box[1], bounds[1])).all()
-        ]
+        within = [n for n, place in enumerate(places) if overlap(place, bounds)]
         if glass is None or not within or not np.any(rgb(scene.media[within[0]].extinction)):
             continue
         path = ("objects", number)
@@ -240,9 +266,9 @@ def _check_glass(loaded: Loaded, things: Things, boxes: list[Floats64]) -> None:
         _warn(loaded, path, f"media[{within[0]}] is in the glass as well; a box may leave it out")
 
 
-def _warn_of_endless(loaded: Loaded, boxes: list[Floats64], world: FullWorld) -> None:
+def _warn_of_endless(loaded: Loaded, places: list[Corners | Sphere], world: FullWorld) -> None:
     """Tell of light that would come through fog without an end."""
-    endless = [n for n, box in enumerate(boxes) if not np.isfinite(box).all()]
+    endless = [n for n, place in enumerate(places) if _endless(place)]
     if not endless or not rgb(loaded.description.media[endless[0]].extinction).all():
         return
     far = [light.name for light in world.lights if light.limit > TO_THE_LIGHT]
