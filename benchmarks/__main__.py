@@ -7,45 +7,45 @@ next. Nothing here decides a test.
 import compileall
 import json
 import os
+from collections.abc import Callable
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 
 import click
 
 from benchmarks.adaptive import measure_adaptive
-from benchmarks.adaptive_sampling import measure_adaptive_sampling
 from benchmarks.allocation_oracle import measure_oracle
-from benchmarks.blue_noise import measure_blue_noise
-from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
-from benchmarks.denoising import measure_denoising
 from benchmarks.engine import measure_degenerate, measure_dragons, measure_effects, measure_engine
-from benchmarks.environment_light import measure_environment_light
 from benchmarks.false_alarms import measure_false_alarms
 from benchmarks.figures import Figure, table, write_ratios
 from benchmarks.grading import measure_grading
-from benchmarks.importance_sampling import measure_importance_sampling
-from benchmarks.many_lights import measure_many_lights
-from benchmarks.media import measure_media
-from benchmarks.microfacets import measure_microfacets
-from benchmarks.multiple_importance import measure_multiple_importance
 from benchmarks.own_functions import measure_own_functions
-from benchmarks.path_tracing import measure_path_tracing
-from benchmarks.photon_mapping import measure_photon_mapping
 from benchmarks.process import measure_processes
-from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
-from benchmarks.radiosity import measure_radiosity
 from benchmarks.reached_error import measure_quickly, measure_reached_error
 from benchmarks.report import publish
-from benchmarks.sampling import measure_sampling
 from benchmarks.scaling import measure_scaling, write_scaling
 from benchmarks.told_errors import measure_told_errors
 from course.benchmarking.machine import machine
 from course.benchmarking.tables import print_tables
 from course.cli.bench import DOCUMENTS, bench
 from course.engine.functions.effects import PROJECT
+from course.engine.functions.modules import TAUGHT
 
 OUT = Path("out/bench")
+
+
+def _of_modules() -> dict[str, Callable[[], list[Figure]]]:
+    """What files here that are called as modules of the course measure: NAME.py has ``measure_NAME``."""
+    here = Path(__file__).parent
+    return {
+        name: getattr(import_module(f"benchmarks.{name}"), f"measure_{name}")
+        for name in TAUGHT
+        if (here / f"{name}.py").is_file()
+    }
+
+
 MEASURES = {
     "engine": measure_engine,
     "effects": measure_effects,
@@ -59,22 +59,8 @@ MEASURES = {
     "reached_error": measure_reached_error,
     "told_errors": measure_told_errors,
     "allocation_oracle": measure_oracle,
-    "radiosity": measure_radiosity,
-    "bounding_volumes": measure_bounding_volumes,
+    **_of_modules(),
     "grading": measure_grading,
-    "path_tracing": measure_path_tracing,
-    "sampling": measure_sampling,
-    "adaptive_sampling": measure_adaptive_sampling,
-    "importance_sampling": measure_importance_sampling,
-    "multiple_importance": measure_multiple_importance,
-    "environment_light": measure_environment_light,
-    "microfacets": measure_microfacets,
-    "media": measure_media,
-    "photon_mapping": measure_photon_mapping,
-    "many_lights": measure_many_lights,
-    "denoising": measure_denoising,
-    "quasi_monte_carlo": measure_quasi_monte_carlo,
-    "blue_noise": measure_blue_noise,
     "false_alarms": measure_false_alarms,
 }
 

@@ -18,6 +18,7 @@ from course.engine.core.environment import CubeEnvironment
 from course.engine.formats.meshes.parts import same
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.description import rgb
+from course.engine.scene.building.further import KEYS
 from course.engine.scene.building.gloss import is_rough, lobe_of
 from course.engine.scene.building.materials import Columns, base_color, material_columns
 from course.engine.scene.building.motion import shutter_of
@@ -161,10 +162,9 @@ def export(scene: Scene, width: int, height: int, finer: int = LAT_LONG_COLUMNS)
     columns = material_columns(description)
     names = list(columns.names)
     lit = set(columns.of_lights.values())
-    if description.media:
-        raise NotExportableError("media are not exported")
-    if description.photons:
-        raise NotExportableError("photons are not exported")
+    for key in KEYS:
+        if getattr(description, key):
+            raise NotExportableError(f"{key} are not exported")
     _refuse_others(description.camera, "camera")
     _refuse_others(description.environment, "environment")
     for number, light in enumerate(description.lights):

@@ -35,7 +35,8 @@ FLOORS = {
         {"scattering"},
         {"environments", "lights"},
         {"paths", "shafts", "world"},
-        {"media", "photons"},
+        # All others: terms around the integrator, of which plans know no more than that (``Wrap``).
+        {"..."},
         {"plan"},
     ],
     "course.school": [{"grading"}, {"notebooks", "quizzes", "studio"}],
@@ -94,8 +95,16 @@ def room(module: str, wing: str) -> str | None:
 
 
 def floors(wing: str) -> dict[str, int]:
-    """The floor of each room."""
-    return {name: floor for floor, rooms in enumerate(FLOORS[wing]) for name in rooms}
+    """The floor of each room; on the one with "..." are those of the wing that no floor names."""
+    named = {name: floor for floor, rooms in enumerate(FLOORS[wing]) for name in rooms}
+    if (rest := named.pop("...", None)) is None:
+        return named
+    found = {
+        name.removeprefix(f"{wing}.").partition(".")[0]
+        for name in NAMES
+        if name.startswith(f"{wing}.")
+    }
+    return named | dict.fromkeys(found - named.keys(), rest)
 
 
 def imports(source: str) -> Iterator[tuple[int, str]]:

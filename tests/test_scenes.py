@@ -24,6 +24,7 @@ from course.engine.formats.pictures.reading import read_picture
 from course.engine.functions.effects import Alone
 from course.engine.functions.modules import COURSE, MODULES
 from course.engine.render.summary import summarize
+from course.engine.scene.building.further import KEYS
 from tests.once import Once
 
 SCENES = Path(__file__).parent.parent / "scenes"
@@ -53,11 +54,20 @@ MAY_DIFFER = {
     "denoising": r"film\.denoise\..*",
     "film": r"film\.(tone\..*|gamut|dither)",
     "path_tracing": r"integrator\.type",
-    "media": r"media\..*",
-    "photon_mapping": r"photons\..*",
 }
 
-# What the scenes of further modules call; the six core ones choose among theirs.
+
+def key_of(module: str) -> str:
+    """The key of the scene that asks for a term of its own."""
+    scene = yaml.safe_load((SCENES / f"{module}.yaml").read_text(encoding="utf-8"))
+    (key,) = scene.keys() & set(KEYS)
+    return str(key)
+
+
+OF_A_KEY = tuple(name for name in COURSE if name not in (*MAY_DIFFER, "radiosity"))
+MAY_DIFFER |= {name: rf"{key_of(name)}\..*" for name in OF_A_KEY}
+
+# What the scenes of further modules call; the six core ones choose among theirs, and a key asks for what it needs.
 CALLS = {
     "sampling": "ball_by_polar ball_by_rejection disk_by_polar sphere_by_polar xorshift32",
     "importance_sampling": "cosine_hemisphere cosine_hemisphere_pdf",
@@ -74,8 +84,6 @@ CALLS = {
     "film": "convert_gamut encode_srgb photographic quantize",
     "many_lights": "light_tree power_choice tree_choice",
     "path_tracing": "diffuse_bounce russian_roulette throughput",
-    "media": "equiangular henyey_greenstein in_scattering transmittance",
-    "photon_mapping": "cone_weights emit_cone roulette shrunk_radius stored",
 }
 
 
@@ -86,6 +94,8 @@ class Shown(NamedTuple):
     spread: float
     called: list[str]
     """The student functions that the picture calls."""
+    needed: list[str]
+    """Those that the scene has asked for."""
     imported: list[str]
     said: str
     """What `course info` says."""
@@ -116,7 +126,8 @@ def _rendered(path: Path) -> Shown:
     world = scene.compiled
     said = str(summary_sections(summarize(scene)))
     seen = float(picture.linear.max()), float(picture.linear.std())
-    functions = picture.receipt.effects["called"], list(scene.effects.imported)
+    needed = [need.function for need in scene.compiled.needs]
+    functions = picture.receipt.effects["called"], needed, list(scene.effects.imported)
     of_world = sum(world.triangles), world.pieces, world.frame.reach
     return Shown(*seen, *functions, said, *of_world)
 
@@ -168,6 +179,9 @@ def test_a_modules_scene_calls_it_and_its_twin_does_not(rendered, name):
     mine = sorted(each for each in after.called if each.startswith(f"{name}."))
     if name in MODULES:
         assert mine
+    elif name in OF_A_KEY:
+        assert mine
+        assert mine == sorted({each for each in after.needed if each.startswith(f"{name}.")})
     else:
         assert mine == [f"{name}.{function}" for function in CALLS[name].split()]
     # Of importance_sampling the twin takes uniform directions.
@@ -211,7 +225,7 @@ def test_the_twin_of_the_cube_map_has_its_mean_colour():
 def test_the_gallery_shows_every_effect(rendered):
     assert len(GALLERY) >= 7
     shown = set().union(*(modules(rendered(path).called) for path in GALLERY))
-    assert shown == {*MODULES, "textures", "film", "media"}
+    assert shown >= set(BRINGS)
 
 
 HOMAGE = SCENES / "gallery" / "1984.yaml"

@@ -5,12 +5,14 @@ from html import escape
 
 from PIL import Image
 
-from course.engine.functions.modules import TAUGHT
+from course.engine.functions.modules import FURTHER, MODULES, TAUGHT
 from sitebuild import pictures, webp
 from sitebuild.objectives import title
 from sitebuild.place import Place
 from sitebuild.shots import tag
 from sitebuild.teaching_file import DOCS, minutes, teaching
+
+WARM_UP = "sampling"
 
 WIDTH = 480
 """Pixels across: two for each that a card shows."""
@@ -23,6 +25,20 @@ def cards(place: Place, name: str = "", words: str = "") -> str:  # noqa: ARG001
     """Show all modules, the warm-up first."""
     shown = "\n".join(_card(place, number, module) for number, module in enumerate(TAUGHT, start=1))
     return f'<ol class="cards">\n{shown}\n</ol>\n'
+
+
+def module_pages(place: Place, name: str = "", words: str = "") -> str:  # noqa: ARG001
+    """The pages of all modules for the site's contents."""
+    further = [module for module in FURTHER if module != WARM_UP]
+    parts = {"The warm-up": [WARM_UP], "The six core modules": MODULES, "Further modules": further}
+    return "\n\n".join(
+        "\n".join(
+            ["```{toctree}", ":hidden:", f":caption: {caption}", ""]
+            + [f"modules/{module}" for module in modules]
+            + ["```"]
+        )
+        for caption, modules in parts.items()
+    )
 
 
 def _card(place: Place, number: int, module: str) -> str:

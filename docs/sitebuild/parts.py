@@ -18,7 +18,7 @@ from sphinx.errors import ExtensionError
 
 from course.base.errors import CourseError
 from sitebuild import kept, pictures
-from sitebuild.cards import cards
+from sitebuild.cards import cards, module_pages
 from sitebuild.command_line import command_line
 from sitebuild.convergence import convergence
 from sitebuild.diagrams.part import diagram
@@ -86,6 +86,7 @@ PARTS: dict[str, Part] = {
     "mistakes": mistakes,
     "metu_shot": metu_shot,
     "minutes": minutes_table,
+    "module_pages": module_pages,
     "notebook": notebook,
     "objectives": objectives,
     "pattern_explorer": pattern_explorer,

@@ -78,13 +78,14 @@ def test_what_the_paper_cites_is_in_its_bibliography_and_nothing_else_is() -> No
 
 
 @pytest.mark.parametrize("name", ["paper/paper.md", "docs/guides/teaching.md"])
-def test_functions_and_modules_are_counted(name: str) -> None:
+def test_there_are_as_many_functions_and_modules_as_is_said(name: str) -> None:
+    """Without a number that every new module would change."""
     text = " ".join(text_of(name).split())
-    functions = sum(map(len, COURSE.values()))
-    assert {int(count) for count in re.findall(r"(\d+) functions", text)} == {functions}
-    for core, further in re.findall(r"(\w+) core modules and (\w+) further", text):
-        words = {"six": 6, "eighteen": 18}
-        assert [words[core.lower()], words[further]] == [len(MODULES), len(FURTHER)]
+    assert "more than a hundred functions" in text
+    assert sum(map(len, COURSE.values())) > 100
+    for core in re.findall(r"(\w+) core modules and three times as many further", text):
+        assert (core, len(MODULES)) == ("Six", 6)
+        assert len(FURTHER) >= 3 * len(MODULES)
 
 
 def test_the_wrong_submissions_of_each_module_are_as_many_as_the_paper_says() -> None:

@@ -4,6 +4,7 @@ from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.description import rgb
 from course.engine.formats.yaml.document import Place
 from course.engine.formats.yaml.loading import Loaded
+from course.engine.scene.building.further import KEYS
 
 LAMPS = "a rectangle or a sphere with radiance: radiosity takes lamps that are surfaces"
 SHINES = "a light that is a rectangle or a sphere with radiance, or a material with emission"
@@ -16,8 +17,9 @@ def check_accepted(loaded: Loaded) -> None:
     lens, or something that moves; names file, line, key path and the remedy.
     """
     scene, whole = loaded.description, Place(loaded.document)
-    whole.check(not scene.media, "media", "none: radiosity knows light between surfaces alone")
-    whole.check(scene.photons is None, "photons", "null: radiosity has no mirrors and no glass")
+    for key in KEYS:
+        what = "none: radiosity knows light from matte surface to matte surface alone"
+        whole.check(not getattr(scene, key), key, what)
     used = sorted({thing.material for thing in scene.objects})
     for name in used:
         _check_material(scene.materials[name], whole.at("materials", name))

@@ -1360,7 +1360,8 @@ class SceneDescription(Map, frozen=True, kw_only=True):
     lights: Annotated[tuple[Light, ...], about("The lights.")] = ()
     objects: Annotated[tuple[Object, ...], about("The objects.")] = ()
     media: Annotated[
-        tuple[MediumDescription, ...], about("What fills space; boxes and balls of it must not overlap.")
+        tuple[MediumDescription, ...],
+        about("What fills space; boxes and balls of it must not overlap."),
     ] = ()
     photons: Annotated[
         PhotonsDescription | None,

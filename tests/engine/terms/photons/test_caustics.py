@@ -283,7 +283,7 @@ def test_photons_in_fog_are_refused(make_scene: MakeScene) -> None:
 
 def test_radiosity_refuses_photons(make_scene: MakeScene) -> None:
     scene = caustics(make_scene, {"color": 0, "mirror": 1}, lights=[GLOBE])
-    with pytest.raises(SceneError, match=r"photons.*null: radiosity has no mirrors"):
+    with pytest.raises(SceneError, match=r"photons.*none: radiosity knows light from matte"):
         check_accepted(scene.loaded)
 
 

@@ -1,6 +1,7 @@
 """Photons of the environment against closed forms: their power, where they fly, and what glass does to even light.
 
-A matte patch receives the same radiance from wherever it looks, straight or by clear glass. Sums over 4096 evenly spread photons are within 2% of their means; see each test for others.
+A matte patch receives the same radiance from wherever it looks, straight or by clear glass. Sums over 4096 evenly
+spread photons are within 2% of their means; see each test for others.
 """
 
 from pathlib import Path
