@@ -8,6 +8,7 @@ from course import render
 from course.engine.core.counters import Counters
 from course.engine.core.rays import Draws
 from course.engine.core.samplers import Block
+from course.engine.core.tracer import Tracer
 from course.engine.core.types import Floats64
 from course.engine.functions.effects import Bound
 from course.engine.render.binding import bind
@@ -16,6 +17,7 @@ from course.engine.terms.photons.emission import WIDTH, Target, leaving
 from course.engine.terms.photons.flight import Photons
 from course.engine.terms.photons.maps import PhotonMap
 from course.engine.terms.photons.numbers import spread
+from course.engine.terms.photons.passes import Passes
 from course.engine.terms.photons.stage import Caustics, PhotonStage
 from tests.conftest import MakeScene
 
@@ -51,15 +53,30 @@ def stage_of(scene: Scene) -> PhotonStage:
     return stage
 
 
-def photons_of(scene: Scene, number: int = 0) -> Photons:
-    """The photons of a pass, in the units of the scene file."""
-    tracer = bind(scene, scene.settings, Bound(scene.effects, scene.compiled.needs))
-    direct = tracer.integrator.direct
+def tracer_of(scene: Scene) -> Tracer:
+    return bind(scene, scene.settings, Bound(scene.effects, scene.compiled.needs))
+
+
+def sky_of(scene: Scene) -> Any:
+    """What adds to direct light."""
+    direct = tracer_of(scene).integrator.direct
     assert direct is not None
-    assert isinstance(direct.sky, Caustics)
+    return direct.sky
+
+
+def photons_of(scene: Scene, number: int = 0) -> Photons:
+    """The photons of a pass of caustics, in the units of the scene file."""
+    sky = sky_of(scene)
+    assert isinstance(sky, Caustics)
+    return map_of(scene, sky.passes, number)
+
+
+def map_of(scene: Scene, passes: Passes, number: int = 0) -> Photons:
+    """The photons of a pass, in the units of the scene file."""
+    tracer = tracer_of(scene)
     block = Block(np.zeros(1, np.uint32), 0, 1, 0)
     draws = Draws(tracer.sampler, tracer.dimensions, block, Counters())
-    made: PhotonMap = direct.sky.passes.of(number, draws)
+    made: PhotonMap = passes.of(number, draws)
     frame, own = scene.compiled.frame, made.photons
     place = own.position.astype(np.float64) * frame.scale + frame.center[:, None]
     return Photons(place, own.direction, own.power * np.float32(frame.scale**2))  # type: ignore[arg-type]

@@ -11,8 +11,18 @@ from course.engine.core.rays import RAYS
 from course.engine.core.types import Floats64
 from course.engine.recording.recording import record
 from course.engine.scene.scene import Scene
+from course.engine.terms.photons.gathering import Gathering
 from tests.conftest import MakeScene
-from tests.engine.terms.photons.parts import FLOOR, GLASS, GLOBE, ball, caustics, pictures
+from tests.engine.terms.photons.parts import (
+    FLOOR,
+    GLASS,
+    GLOBE,
+    ball,
+    caustics,
+    map_of,
+    pictures,
+    sky_of,
+)
 
 ALBEDO = np.array([0.8, 0.5, 0.2])
 
@@ -49,6 +59,25 @@ def test_a_closed_ball_is_as_bright_as_its_series(
     assert (found >= expected * 0.99).all()
 
 
+def test_photons_of_all_surfaces_have_the_power_that_these_send_on(make_scene: MakeScene) -> None:
+    """The lamp's, 8 pi W, times albedo + albedo^2 + ...: each photon lives by chance as its strongest channel does."""
+    scene = closed_ball(make_scene)
+    gathering = sky_of(scene)
+    assert isinstance(gathering, Gathering)
+    assert gathering.passes is not None
+    power = map_of(scene, gathering.passes).power.astype(np.float64)
+    terms = np.array([ALBEDO**k for k in range(1, 4)])
+    expected = 8 * np.pi * terms.sum(axis=0)
+    # Of independent photons whose numbers of bounces are geometric, with q = 0.8, cut off at 3: by its variance.
+    chances = 0.8 ** np.arange(1, 4) * [0.2, 0.2, 1]
+    chances = np.concatenate(([0.2], chances))
+    brought = np.concatenate(
+        (np.zeros((1, 3)), np.cumsum(terms / 0.8 ** np.arange(1, 4)[:, None], axis=0))
+    )
+    sigma = np.sqrt(chances @ (brought - terms.sum(axis=0)) ** 2 / 20_000) * 8 * np.pi
+    assert (np.abs(power.sum(axis=1) - expected) <= 4 * sigma).all()
+
+
 def box(make_scene: MakeScene, kind: str, **more: Any) -> Scene:
     """A room with a red and a green wall, open to the camera, and a box in it."""
 
@@ -69,8 +98,8 @@ def box(make_scene: MakeScene, kind: str, **more: Any) -> Scene:
     block = {"shape": "box", "material": "white", "size": [0.6, 1, 0.6]}
     lamp = {"type": "rectangle", "corner": [-0.3, 0.98, -0.3], "edge_u": [0.6, 0, 0]}
     known: dict[str, Any] = {
-        "camera": {"eye": [0, 0, 3.4], "look_at": [0, 0, 0], "vertical_fov": 40},
-        "film": {"width": 6, "height": 6},
+        "camera": {"eye": [0, 0, 3.4], "look_at": [0, 0, 0], "vertical_fov": 26},
+        "film": {"width": 12, "height": 12},
         "materials": {
             "white": {"color": 0.7},
             "red": {"color": [0.6, 0.1, 0.1]},
@@ -85,7 +114,7 @@ def box(make_scene: MakeScene, kind: str, **more: Any) -> Scene:
 
 
 def test_gathered_light_is_that_of_paths(make_scene: MakeScene) -> None:
-    by_paths = pictures(box(make_scene, "path"), 64, 4)
+    by_paths = pictures(box(make_scene, "path"), 256, 4)
     photons = {"count": 40_000, "radius": 0.04, "gather": 4}
     found = pictures(box(make_scene, "distribution", photons=photons), 16, 4)
     error = np.hypot(by_paths.std(axis=0, ddof=1), found.std(axis=0, ddof=1)) / 2

@@ -1,0 +1,93 @@
+"""`python -m benchmarks.caustic`: a caustic by progressive photons and by paths, to one error, on the same cores.
+
+Errors are against a converged picture by paths, so that the blur of photons counts, too; what the reference's own noise
+adds is taken off. Paths' squared error falls as 1 / n, whatever finds the lamp: how long they take to the error of the
+photons follows from one run.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+
+import click
+import numpy as np
+
+from benchmarks.figures import Figure, summary, table
+from course import Scene, render
+from course.base.atomic import replacing
+from course.benchmarking.tables import print_tables
+from course.engine.core.types import Floats64
+from course.engine.functions.effects import PROJECT
+from course.engine.scene.scene import load_variant
+
+SCENE = PROJECT / "benchmarks" / "scenes" / "caustic.yaml"
+PHOTONS = {"count": 100_000, "radius": 0.02, "samples": 16}
+REFERENCE = Path("out/references")
+
+
+def reference(scene: Scene, samples: int, batches: int) -> tuple[Floats64, float]:
+    """The mean of pictures by paths, and its own mean squared error; kept in a folder."""
+    path = REFERENCE / f"caustic_{samples}_{batches}.npz"
+    if path.is_file():
+        with np.load(path) as kept:
+            return kept["mean"], float(kept["error"])
+    pictures = [
+        np.asarray(render(scene, spp=samples, seed=10_000 + k).linear, np.float64)
+        for k in range(batches)
+    ]
+    mean = np.mean(pictures, axis=0)
+    own = float(np.var(pictures, axis=0, ddof=1).mean() / batches)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        np.savez(file, mean=mean, error=own)
+    return mean, own
+
+
+def measure(
+    paths_spp: int, photons_spp: int, rounds: int, reference_spp: int, batches: int
+) -> list[Figure]:
+    """How many times longer paths take than photons."""
+    by_paths = load_variant(SCENE)
+    by_photons = load_variant(SCENE, {("photons",): PHOTONS})
+    truth, own = reference(by_paths, reference_spp, batches)
+    ways: dict[str, Callable[[int], Floats64]] = {
+        "paths": lambda seed: np.asarray(render(by_paths, spp=paths_spp, seed=seed).linear),
+        "photons": lambda seed: np.asarray(render(by_photons, spp=photons_spp, seed=seed).linear),
+    }
+    seconds: dict[str, list[float]] = {name: [] for name in ways}
+    errors: dict[str, list[float]] = {name: [] for name in ways}
+    for seed in range(rounds + 1):
+        for name, picture in ways.items():
+            begun = perf_counter()
+            made = picture(seed)
+            seconds[name].append(perf_counter() - begun)
+            errors[name].append(float(((made.astype(np.float64) - truth) ** 2).mean()) - own)
+    for name in ways:
+        # The first compiles.
+        errors[name], seconds[name] = errors[name][1:], seconds[name][1:]
+        print(
+            f"{name}: RMSE {np.mean(errors[name]) ** 0.5:.5f}, {median(seconds[name]):.3f} s"
+            f" (the reference: {own**0.5:.5f})"
+        )
+    scale = float(np.mean(errors["paths"]) / np.mean(errors["photons"]))
+    both = zip(seconds["paths"], seconds["photons"], strict=True)
+    ratios = [a / b * scale for a, b in both]
+    name = "photon_mapping: seconds to one error, paths / progressive photons"
+    return [summary(name, ratios, 5, at_least=True)]
+
+
+@click.command()
+@click.option("--paths-spp", default=256, show_default=True, help="Samples a pixel by paths.")
+@click.option("--photons-spp", default=64, show_default=True, help="Samples a pixel by photons.")
+@click.option("--rounds", default=5, show_default=True, help="Times that each is timed, in turn.")
+@click.option("--reference-spp", default=4096, show_default=True, help="Of each of its batches.")
+@click.option("--batches", default=32, show_default=True, help="Of the reference.")
+def main(paths_spp: int, photons_spp: int, rounds: int, reference_spp: int, batches: int) -> None:
+    """Measure, and print what was found."""
+    found = measure(paths_spp, photons_spp, rounds, reference_spp, batches)
+    print_tables([table(found)])
+
+
+if __name__ == "__main__":
+    main()
