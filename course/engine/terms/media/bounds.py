@@ -15,7 +15,7 @@ class Box:
     high: Floats32
 
     def between(self, origin: Floats32, direction: Floats32) -> tuple[Floats32, Floats32]:
-        """Distances (n,) at which rays (3, n) with unit ways come in and go out; for others the second is less."""
+        """Distances (n,) at which rays (3, n) with unit ways come in and go out; for others the second is no more."""
         with np.errstate(divide="ignore", invalid="ignore"):
             one = (self.low[:, None] - origin) / direction
             other = (self.high[:, None] - origin) / direction
@@ -42,7 +42,7 @@ class Ball:
         squared = self.radius**2 - np.einsum("cn,cn->n", aside, aside)
         half = np.sqrt(np.maximum(squared, 0))
         first = np.maximum(middle - half, 0).astype(np.float32)
-        return first, np.where(squared > 0, middle + half, -1).astype(np.float32)
+        return first, (middle + half).astype(np.float32)
 
 
 Corners = Floats64

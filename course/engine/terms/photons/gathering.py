@@ -103,7 +103,8 @@ class Gathering:
             light = np.zeros((3, hits.size), np.float32)
         numbers = shows if path is None else path.take(shows)
         u, paths = draws(GATHER[0], numbers, depth), paths_of(draws, numbers)
-        draws.cast("gather", len(shows) * self.rays, path, shows, COST * self.rays)
+        # The rays are counted as they go on.
+        draws.cast("gather", 0, path, shows, COST * self.rays)
         together = max(1, RAYS // self.rays)
         for first in range(0, len(shows), together):
             if draws.cancelled():

@@ -72,7 +72,7 @@ class Passes:
 
     def _made(self, number: int, draws: Draws) -> PhotonMap:
         """The photons of a pass."""
-        seed, radius = seed_of(draws) + self.indirect, self._radius(number)
+        seed, radius = seed_of(draws), self._radius(number)
         counts, sent, kept = self._shares, 0, list[Photons]()
         total = sum(counts)
         starts = np.cumsum([0, *counts]).tolist()

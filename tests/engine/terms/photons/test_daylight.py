@@ -31,7 +31,8 @@ def test_even_light_sends_pi_times_itself_through_each_part_of_the_ball(
     middle = np.array([[0], [0.8], [0]])
     off = np.cross((origin - middle).T, way.T)
     assert (np.linalg.norm(off, axis=1) <= 0.3 * 1.001).all()
-    assert ((origin - middle) * way).sum(axis=0).max() < -5
+    # The corners of the floor are 5.7 away; the disk lies beyond by its radius.
+    assert ((origin - middle) * way).sum(axis=0).max() < -6
     mean = (way * power.sum(axis=0)).sum(axis=1) / power.sum()
     assert np.abs(mean).max() < 0.03
 

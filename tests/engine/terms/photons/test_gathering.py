@@ -8,14 +8,15 @@ import pytest
 from course import render
 from course.base.errors import SceneError
 from course.engine.core.rays import RAYS
+from course.engine.core.samplers import Block
 from course.engine.core.types import Floats64
 from course.engine.recording.recording import record
 from course.engine.scene.scene import Scene
-from course.engine.terms.photons.gathering import Gathering
+from course.engine.terms.photons.gathering import Gathering, ManySampler
+from course.engine.terms.samplers.sobol import SobolSampler
 from tests.conftest import MakeScene
 from tests.engine.terms.photons.parts import (
     FLOOR,
-    GLASS,
     GLOBE,
     ball,
     caustics,
@@ -79,7 +80,7 @@ def test_photons_of_all_surfaces_have_the_power_that_these_send_on(make_scene: M
 
 
 def box(make_scene: MakeScene, kind: str, **more: Any) -> Scene:
-    """A room with a red and a green wall, open to the camera, and a box in it."""
+    """A room with a red and a green wall, open to the camera, and a box in it that is half a mirror."""
 
     def wall(material: str, *transform: dict[str, Any]) -> dict[str, Any]:
         size = {"shape": "quad", "width": 2, "depth": 2}
@@ -95,7 +96,7 @@ def box(make_scene: MakeScene, kind: str, **more: Any) -> Scene:
         wall("red", turned(0, 0, 1, -90), {"translate": [-1, 0, 0]}),
         wall("green", turned(0, 0, 1, 90), {"translate": [1, 0, 0]}),
     ]
-    block = {"shape": "box", "material": "white", "size": [0.6, 1, 0.6]}
+    block = {"shape": "box", "material": "half", "size": [0.6, 1, 0.6]}
     lamp = {"type": "rectangle", "corner": [-0.3, 0.98, -0.3], "edge_u": [0.6, 0, 0]}
     known: dict[str, Any] = {
         "camera": {"eye": [0, 0, 3.4], "look_at": [0, 0, 0], "vertical_fov": 26},
@@ -104,11 +105,12 @@ def box(make_scene: MakeScene, kind: str, **more: Any) -> Scene:
             "white": {"color": 0.7},
             "red": {"color": [0.6, 0.1, 0.1]},
             "green": {"color": [0.1, 0.5, 0.1]},
-            "m": GLASS,
+            "half": {"color": 0.3, "mirror": [0.7, 0.4, 0.1]},
         },
         "objects": [*walls, block | {"transform": [{"translate": [0.3, -0.5, -0.2]}]}],
         "lights": [lamp | {"edge_v": [0, 0, 0.6], "radiance": 10}],
-        "integrator": {"type": kind, "max_depth": 4},
+        # Deep enough that it doesn't matter that photons begin anew to count bounces where a mirror has shown them.
+        "integrator": {"type": kind, "max_depth": 12},
     }
     return make_scene(**known | more)
 
@@ -120,6 +122,25 @@ def test_gathered_light_is_that_of_paths(make_scene: MakeScene) -> None:
     error = np.hypot(by_paths.std(axis=0, ddof=1), found.std(axis=0, ddof=1)) / 2
     off = np.abs(by_paths.mean(axis=0) - found.mean(axis=0))
     assert (off <= 6 * error + 0.004 * by_paths.mean(axis=0)).all()
+
+
+@pytest.mark.parametrize(("depth", "rays"), [(1, 0), (2, 4 * 36 * 16)])
+def test_what_is_seen_by_the_last_bounce_gathers_no_more(
+    make_scene: MakeScene, depth: int, rays: int
+) -> None:
+    """All that the eye sees is the mirror, and in it the wall."""
+    mirror = {"shape": "quad", "material": "m", "width": 0.9, "depth": 0.9}
+    wall = {"shape": "sphere", "material": "wall", "radius": 1, "segments": 96}
+    scene = closed_ball(
+        make_scene,
+        camera={"eye": [0, 0.3, 0.01], "look_at": [0, -0.2, 0], "vertical_fov": 40},
+        materials={"wall": {"color": 0.5}, "m": {"color": 0, "mirror": 1}},
+        objects=[wall, mirror | {"transform": [{"translate": [0, -0.2, 0]}]}],
+        integrator={"max_depth": depth},
+    )
+    gathered = render(scene, spp=16).receipt.rays.get("gather", 0)
+    # Rays that meet the mirror are mirrored, and counted again.
+    assert rays <= gathered <= 2 * rays
 
 
 def test_memory_is_bounded_whatever_is_gathered(make_scene: MakeScene, monkeypatch: Any) -> None:
@@ -174,8 +195,23 @@ def test_rays_of_a_pixel_tell_of_gathered_light_and_add_up(make_scene: MakeScene
     total = sum(np.array(one.radiance) for one in recording.segments) / 16
     np.testing.assert_allclose(total, render(scene, spp=16).linear[1, 1], rtol=1e-3)
     told = [one for one in recording.segments if one.light == "gathered light"]
-    # Four rays for each sample, all of which end on the ball.
+    # Four rays for each sample, all of which end on the ball. What nobody has told of would be the wall's own.
     assert len(told) == 4 * 16
+    own = [one.radiance for one in recording.segments if one.kind == "camera"]
+    np.testing.assert_allclose(own, 0, atol=1e-5)
+
+
+def test_rays_that_gather_have_numbers_of_their_own_that_are_as_even_as_their_paths() -> None:
+    """Of 4000 rays of each of two paths the means of numbers are within 5 standard errors of 1/2."""
+    block = Block(np.arange(2, dtype=np.uint32), 0, 1, 0)
+    sampler = ManySampler(SobolSampler(3), np.array([0, 1]), 4000)
+    u = sampler.draw(block, 6, 2).reshape(2, 2, 4000)
+    assert u.min() >= 0
+    assert u.max() < 1
+    assert np.abs(u.mean(axis=2) - 0.5).max() < 5 * (12 * 4000) ** -0.5
+    assert np.abs(np.corrcoef(u[0, 0], u[1, 0])[0, 1]) < 5 * 4000**-0.5
+    # Others at other depths, for a path's numbers there are others as well.
+    assert not np.allclose(u[0, 0], sampler.draw(block, 8, 2)[0, :4000])
 
 
 @pytest.mark.parametrize(
