@@ -42,6 +42,8 @@ class Objective(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 class Module(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """What one module teaches; see docs/teaching.yaml."""
 
+    write: Text
+    lacks: str = ""
     writing: Count
     rendering: Count
     needs: tuple[str, ...]

@@ -1,44 +1,32 @@
-"""The table of `docs/grading.md` says which kinds of checks the further modules have, and for how many functions."""
+"""The tables of modules say what each has: their lines are as `python -m benchmarks.module_tables` writes them."""
 
 import re
 
+import pytest
+
+from benchmarks.module_tables import TABLES, kinds_of, said
 from course.engine.functions.effects import PROJECT
-from course.engine.functions.modules import FURTHER
+from course.engine.functions.modules import COURSE, FURTHER
 from course.school.grading.catalog import module_checks
 
-KINDS = ("order", "picture", "bias", "speed")
 
-
-def rows() -> list[list[str]]:
-    """The table's cells, without its head."""
-    text = (PROJECT / "docs" / "grading.md").read_text(encoding="utf-8")
-    found = re.search(r"^\| further module \|.*\n\|[ -:|]+\|\n((?:\|.*\|\n)+)", text, re.MULTILINE)
-    assert found
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in found[1].splitlines()]
-
-
-def test_the_table_counts_the_functions_that_each_kind_checks() -> None:
-    told = {name: list(map(int, counts)) for name, *counts, _ in rows()}
-    found = {
-        module: [
-            len(functions),
-            *(
-                len(
-                    {check.function for check in module_checks(module).checks if check.kind == kind}
-                )
-                for kind in KINDS
-            ),
-        ]
-        for module, functions in FURTHER.items()
-    }
-    assert told == found
+@pytest.mark.parametrize("mark", TABLES)
+def test_a_table_is_in_step(mark: str) -> None:
+    file, made = TABLES[mark]
+    text = (PROJECT / file).read_text(encoding="utf-8")
+    between = text.partition(f"<!-- {mark}: begin -->")[2].partition(f"<!-- {mark}: end -->")[0]
+    assert between.strip() == made(), "python -m benchmarks.module_tables writes it anew"
 
 
 def test_a_reason_stands_where_something_is_missing() -> None:
-    for module, total, *counts, why in rows():
-        assert why or all(count == total for count in counts), module
+    for module, why in said("lacks").items():
+        total, *counts = kinds_of(module)
+        if module in FURTHER:
+            assert why or all(count == total for count in counts), module
+        else:
+            assert not why
         # Functions that it names are the module's.
-        assert set(re.findall(r"`(\w+)`", why)) <= set(FURTHER[module])
+        assert set(re.findall(r"`(\w+)`", why)) <= set(COURSE[module])
 
 
 def test_contracts_and_closed_forms_are_in_every_module() -> None:
