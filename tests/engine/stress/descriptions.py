@@ -42,6 +42,8 @@ MOST = {
     "q": 3,
     "size": 8,
     "frequency": 50.0,
+    "gather": 4,
+    "nearest": 50,
 }
 """Bounds on what only costs time."""
 
@@ -197,6 +199,11 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             light["object"] = thing["name"] = f"lamp {which}"
             description["materials"][thing["material"]].setdefault("emission", 2.0)
     for fog in description.get("media", []):
+        if fog.get("sphere") is not None:
+            # What it fills has no densities.
+            for key in ("box", "grid", "noise"):
+                fog.pop(key, None)
+            continue
         corners = zip(*(fog.get("box") or ([-1, -1, -1], [1, 1, 1])), strict=True)
         fog["box"] = [list(corner) for corner in zip(*map(sorted, corners), strict=True)]
         if fog.get("grid") is not None:
@@ -204,7 +211,12 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     if description.get("media"):
         description.pop("photons", None)
     if description.get("photons") is not None:
-        description["photons"]["count"] = min(description["photons"].get("count", 1000), 999)
+        photons = description["photons"]
+        photons["count"] = min(photons.get("count", 1000), 999)
+        if description["integrator"].get("type") == "path":
+            photons.pop("gather", None)
+        if photons.get("nearest") is not None:
+            photons.pop("cone", None)
     things = [*description["objects"], *description["lights"]]
     if any(any(thing.get("motion", {}).get("velocity", [])) for thing in things):
         # A hierarchy holds what stands still.

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from course.engine.core.accelerator import Intersections
 from course.engine.core.hits import Hits
 from course.engine.core.integrator import Integrator
 from course.engine.core.rays import Draws, Rays
@@ -37,13 +38,16 @@ class FogIntegrator(Integrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
+        found: Intersections | None = None,
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """See ``Integrator``."""
-        rays = self._dimmed(rays, depth, path_radiance, draws)
-        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws))
+        rays, found = self._dimmed(rays, depth, path_radiance, draws)
+        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws), found)
 
-    def _dimmed(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays:
-        """Rays that carry what fog lets through; what it scatters is added."""
+    def _dimmed(
+        self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws
+    ) -> tuple[Rays, Intersections]:
+        """Rays that carry what fog lets through, and what they hit; what fog scatters is added."""
         rays = numbered(rays, depth, draws)
         assert rays.path is not None
         path = rays.path
@@ -74,7 +78,7 @@ class FogIntegrator(Integrator):
                 )
                 some.scatter(self, self.lamps, depth, path_radiance, draws)
         draws.counters.lap("fog")
-        return replace(rays, throughput=carried * left)
+        return replace(rays, throughput=carried * left), found
 
 
 @dataclass(frozen=True)

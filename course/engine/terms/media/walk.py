@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.engine.core.accelerator import Intersections
 from course.engine.core.hits import Hits
 from course.engine.core.rays import OPEN, Draws, Rays
 from course.engine.core.types import Floats32, Indices, Mask, Media
@@ -36,7 +37,7 @@ class FogPathIntegrator(PathIntegrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
-    ) -> tuple[Rays, Mask | None, tuple[Rays, Mask | None] | None]:
+    ) -> tuple[Rays, Mask | None, Intersections | None, tuple[Rays, Mask | None] | None]:
         """See ``PathIntegrator``."""
         rays = numbered(rays, depth, draws)
         assert rays.path is not None
@@ -74,7 +75,8 @@ class FogPathIntegrator(PathIntegrator):
             None if rays.time is None else rays.time.take(goes),
             None if rays.start is None else rays.start.take(goes, axis=1),
         )
-        return through, adds_lights, turned
+        met = Intersections(*(a.take(goes) for a in (found.triangle, found.u, found.v, found.t)))
+        return through, adds_lights, met, turned
 
     def intersect(
         self,
@@ -83,9 +85,10 @@ class FogPathIntegrator(PathIntegrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
+        found: Intersections | None = None,
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """See ``Integrator``."""
-        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws))
+        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws), found)
 
     @property
     def _rays_find_it(self) -> bool:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from course.engine.core.accelerator import Intersections
 from course.engine.core.hits import Hits
 from course.engine.core.integrator import CancelledError, Integrator
 from course.engine.core.rays import RAYS, Draws, Rays, join_rays
@@ -110,9 +111,11 @@ class PathIntegrator(Integrator):
         ``adds_lights``: (n,) bool, rays whose light from lamps and the environment counts; None for none of them
         """
         counters = draws.counters
-        rays, adds_lights, turned = self.entered(rays, adds_lights, depth, path_radiance, draws)
+        came = self.entered(rays, adds_lights, depth, path_radiance, draws)
+        rays, adds_lights, found, turned = came
+        seen = False if adds_lights is None else adds_lights
         hits, throughput, path, medium = self.intersect(
-            rays, False if adds_lights is None else adds_lights, depth, path_radiance, draws
+            rays, seen, depth, path_radiance, draws, found
         )
         if adds_lights is not None and hits.ray is not None:
             adds_lights = adds_lights.take(hits.ray)
@@ -145,12 +148,12 @@ class PathIntegrator(Integrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
-    ) -> tuple[Rays, Mask | None, tuple[Rays, Mask | None] | None]:
-        """Rays as they come to surfaces, with ``adds_lights`` of these, and the same of those that turn before.
+    ) -> tuple[Rays, Mask | None, Intersections | None, tuple[Rays, Mask | None] | None]:
+        """Rays as they come to surfaces, and ``adds_lights`` of these; what they hit; and rays that turn before.
 
-        Where space is empty all come, and none turns: None.
+        Where space is empty all come, nothing is known of what they hit, and none turns: None.
         """
-        return rays, adds_lights, None
+        return rays, adds_lights, None, None
 
     def _light(
         self,

@@ -160,10 +160,10 @@ class Gathering:
                 continue
             radiance = radiance * leg.power
             brought[:, leg.path] += radiance
-            # A surface that is black and shines counts as a white one that is lit.
+            # A surface that is black, or nearly so, and shines counts as a white one that is lit.
             white = np.ones((3, leg.hits.size), np.float32), None
             albedo = self.reflection.reflected(leg.hits, white)
-            albedo = np.where(albedo > 0, albedo, 1)
+            albedo = np.where(albedo > 1e-3, albedo, np.float32(1))
             seen, irradiance = np.zeros((2, 3, m * count), np.float32)
             seen[:, leg.path] = albedo
             irradiance[:, leg.path] = radiance * np.float32(np.pi) / albedo

@@ -333,6 +333,14 @@ def test_photons_are_the_same_however_the_picture_is_rendered(make_scene: MakeSc
         ({"lights": []}, "no light sends any"),
         ({"materials": {"white": {"color": 0, "mirror": 1}, "m": GLASS}}, "nothing is matte"),
         ({"photons": {"count": 100_000_000}}, "take about 3 minutes a pass; at most 1,048,576"),
+        ({"photons": {"count": 20_000_000}}, "take about 40 seconds a pass; at most 1,048,576"),
+        (
+            {
+                "environment": {"type": "constant", "radiance": 1},
+                "integrator": {"type": "path"},
+            },
+            "no photons leave an environment that lights no surface.*set environment.lights",
+        ),
     ],
 )
 def test_what_makes_no_caustic_or_takes_long_is_told(

@@ -146,6 +146,13 @@ def _tell_what_is_left_out(loaded: Loaded, world: FullWorld) -> None:
             loaded,
             f"{', '.join(others)}: it isn't known where photons leave; no caustics of its light",
         )
+    # Rays of paths that have come by mirrors from matte surfaces would see it, if photons didn't stand for them.
+    if world.paths is not None and world.environment and world.sky is None and not world.backdrop:
+        _tell(
+            loaded,
+            "no photons leave an environment that lights no surface, and no caustics are of its light: set"
+            " environment.lights",
+        )
     combined = loaded.description.integrator.gloss_sampling != "automatic"
     if world.paths is not None and world.combining is not None and combined:
         _tell(
