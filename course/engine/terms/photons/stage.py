@@ -56,6 +56,7 @@ class PhotonStage:
     ----------
     diffuses, refracts : (M,) which materials have a diffuse term, and which are glass
     albedo : (3, M) of the diffuse terms
+    glow : (3, M) radiance of surfaces that no light samples; None if nothing else shines
     target : around all mirrors and glass; None where there are none
     everything : around the scene
     """
@@ -66,6 +67,7 @@ class PhotonStage:
     diffuses: Mask
     refracts: Mask
     albedo: Lookup
+    glow: Lookup | None
     target: Target | None
     everything: Target
     module: Functions
@@ -110,7 +112,7 @@ class PhotonStage:
             sent_on = replace(flight, albedo=self.albedo)
             passes = self._passes(sent_on, self.everything, maps, True)
         known = {each.name: getattr(integrator, each.name) for each in fields(Integrator)}
-        shading = Integrator(**known | {"emission": None})
+        shading = Integrator(**known | {"emission": None, "glow": self.glow})
         gathering = Gathering(
             direct.sky,
             shading,

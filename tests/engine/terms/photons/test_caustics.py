@@ -331,6 +331,7 @@ def test_photons_are_the_same_however_the_picture_is_rendered(make_scene: MakeSc
     [
         ({"objects": [FLOOR]}, "nothing mirrors or refracts"),
         ({"lights": []}, "no light sends any"),
+        ({"integrator": {"max_depth": 0}}, "no surface sends light on.*max_depth is 0"),
         ({"materials": {"white": {"color": 0, "mirror": 1}, "m": GLASS}}, "nothing is matte"),
         ({"photons": {"count": 100_000_000}}, "take about 3 minutes a pass; at most 1,048,576"),
         ({"photons": {"count": 20_000_000}}, "take about 40 seconds a pass; at most 1,048,576"),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from course import render
-from course.base.errors import SceneError
+from course.base.errors import CourseWarning, SceneError
 from course.engine.core.rays import RAYS
 from course.engine.core.samplers import Block
 from course.engine.core.types import Floats64
@@ -122,6 +122,34 @@ def test_gathered_light_is_that_of_paths(make_scene: MakeScene) -> None:
     error = np.hypot(by_paths.std(axis=0, ddof=1), found.std(axis=0, ddof=1)) / 2
     off = np.abs(by_paths.mean(axis=0) - found.mean(axis=0))
     assert (off <= 6 * error + 0.004 * by_paths.mean(axis=0)).all()
+
+
+def test_what_shines_counts_once(make_scene: MakeScene) -> None:
+    """A closed ball whose wall is grey and whose lamp is a ball in the middle, as a light, and then as what glows.
+
+    A wall gets pi L r^2 = 0.16 from the lamp. Of light that leaves a wall the lamp's ball, which is black, takes a share
+    of r^2 = 0.04.
+    """
+    parts: dict[str, Any] = {
+        "camera": {"eye": [0, 0, 0.5], "look_at": [0, 0, 1], "vertical_fov": 40},
+        "materials": {"wall": {"color": 0.5}, "m": {"color": 0, "emission": 4 / np.pi}},
+        "objects": [
+            {"shape": "sphere", "material": "wall", "radius": 1, "segments": 96},
+            {"shape": "sphere", "name": "lamp", "material": "m", "radius": 0.2, "segments": 64},
+        ],
+        "integrator": {"max_depth": 2},
+        "photons": {"count": 20_000, "radius": 0.1, "gather": 16},
+    }
+    lamp = closed_ball(make_scene, **parts | {"lights": [{"type": "object", "object": "lamp"}]})
+    orders = 0.5 * 0.16 / np.pi * np.cumprod([1, 0.5 * 0.96, 0.5 * 0.96])
+    found = render(lamp, spp=32).linear.mean(axis=(0, 1), dtype=np.float64)
+    assert found == pytest.approx(np.full(3, orders.sum()), rel=0.02)
+    # A lamp that is a point, and dim, so that there are photons to be sent; what glows lights others once.
+    dim = {"type": "point", "position": [0.5, 0, 0], "intensity": 1e-6}
+    with pytest.warns(CourseWarning, match="what glows and is no light sends no photons"):
+        glows = closed_ball(make_scene, **parts | {"lights": [dim]})
+    found = render(glows, spp=32).linear.mean(axis=(0, 1), dtype=np.float64)
+    assert found == pytest.approx(np.full(3, orders[0]), rel=0.05)
 
 
 @pytest.mark.parametrize(("depth", "rays"), [(1, 0), (2, 4 * 36 * 16)])

@@ -7,13 +7,14 @@ import numpy as np
 
 from course.base.errors import CourseWarning
 from course.base.texts import count
-from course.engine.core.materials import Lookup
+from course.engine.core.materials import Lookup, MaterialTable
 from course.engine.core.motion import MovingAccelerator
-from course.engine.core.types import Floats64, Mask
+from course.engine.core.types import Floats32, Floats64, Mask
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.loading import Loaded
 from course.engine.functions.effects import Bound
 from course.engine.scene.building.frame import Frame
+from course.engine.scene.building.materials import material_columns
 from course.engine.scene.building.things import Things
 from course.engine.terms.photons.emission import (
     Daylight,
@@ -54,13 +55,16 @@ def compiled(
     if world.sky is not None and world.environment is not None:
         lights = (*lights, Daylight(world.environment, world.sky))
     target = _ball(world, optical)
-    if (target is None and not asked.gather) or not lights or not materials.diffuses.any():
-        nothing, nor = "no light sends any", "there are no caustics"
-        if target is None and not asked.gather:
+    caustics = target is not None or asked.gather
+    if not (caustics and lights and materials.diffuses.any() and scene.integrator.max_depth):
+        nothing = "no light sends any"
+        if not caustics:
             nothing = "nothing mirrors or refracts"
         elif not materials.diffuses.any():
-            nothing, nor = "nothing is matte", "there is nothing that they light"
-        _tell(loaded, f"{nothing}: {nor}, and no photons are sent")
+            nothing = "nothing is matte"
+        elif not scene.integrator.max_depth:
+            nothing = "no surface sends light on (integrator.max_depth is 0)"
+        _tell(loaded, f"{nothing}: there are no caustics, and no photons are sent")
         return world
     _tell_what_is_left_out(loaded, world)
     radius = None if asked.radius is None else asked.radius / frame.scale
@@ -70,6 +74,13 @@ def compiled(
     names |= {"final_gather"} if asked.gather else set()
     module = bound.functions("photon_mapping", *sorted(names), asked_by=KEY)
     where = f"{loaded.document.where(KEY)}: photons"
+    glow = _unsampled(loaded, materials)
+    if asked.gather and glow.any():
+        _tell(
+            loaded,
+            "what glows and is no light sends no photons: its light goes to other surfaces, and no further; add"
+            " {type: object, object: its name} to lights",
+        )
     everything = _ball(world, np.ones_like(optical))
     assert everything is not None
     stage = PhotonStage(
@@ -79,6 +90,7 @@ def compiled(
         materials.diffuses,
         materials.refracts,
         Lookup(materials.diffuse),
+        Lookup(glow) if glow.any() else None,
         target,
         everything,
         module,
@@ -86,6 +98,15 @@ def compiled(
     )
     combining = world.combining if world.paths is None else None
     return replace(world, wraps=(*world.wraps, stage), combining=combining)
+
+
+def _unsampled(loaded: Loaded, materials: MaterialTable) -> Floats32:
+    """Radiance (3, M) of surfaces that shine and that no light samples."""
+    sampled = np.zeros(materials.emission.shape[1], np.bool_)
+    sampled[list(material_columns(loaded.description).of_lights.values())] = True
+    if materials.lamps is not None:
+        sampled |= materials.lamps
+    return np.asarray(materials.emission * ~sampled, np.float32)
 
 
 def _check(loaded: Loaded, asked: d.PhotonsDescription, world: FullWorld) -> None:
