@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.core.accelerator import Intersections
 from course.engine.core.camera import Camera
 from course.engine.core.direct import DirectLight
 from course.engine.core.environment import Environment
@@ -121,20 +120,17 @@ class Integrator:
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
-        found: Intersections | None = None,
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
         ``adds_lights``, (N,) or one bool, selects the rays that add the environment's radiance if they hit nothing: all
-        of them here; in path tracing, those whose last hit hasn't sampled the environment directly. ``found``: what
-        the rays hit, where that is known.
+        of them here; in path tracing, those whose last hit hasn't sampled the environment directly.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
         watcher = draws.watcher
         if watcher is not None:
             rays = watcher.begins(rays, depth)
-        if found is None:
-            found = surface.intersect(rays, counters.embree, of_camera)
+        found = surface.intersect(rays, counters.embree, of_camera)
         counters.lap("trace")
         if depth <= self.environment_depth and adds_lights is not False:
             missed = (found.triangle < 0) & adds_lights

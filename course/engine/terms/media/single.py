@@ -5,6 +5,7 @@ participating media", 2012), and a shadow ray asks whether the lamp is seen from
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from course.engine.core.types import Floats32, Indices, Mask, Media
 from course.engine.core.vectors import dot, repeated
 from course.engine.terms.media.fog import NO_FOG, Fog, Fogs
 from course.engine.terms.media.lamps import WAY, ArrivingLight, Lamps
+from course.engine.terms.media.through import KnownHits
 from course.engine.terms.media.watched import begun, numbered, tell
 
 PLACE = ("fog place", 1)
@@ -38,11 +40,12 @@ class FogIntegrator(Integrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
-        found: Intersections | None = None,
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """See ``Integrator``."""
         rays, found = self._dimmed(rays, depth, path_radiance, draws)
-        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws), found)
+        known: Any = KnownHits(self.surface, found)
+        asked = rays, adds_lights, depth, path_radiance, begun(draws)
+        return Integrator.intersect(replace(self, surface=known), *asked)
 
     def _dimmed(
         self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws

@@ -5,15 +5,29 @@ from typing import Any
 
 import numpy as np
 
-from course.engine.core.accelerator import QueryStats
+from course.engine.core.accelerator import Intersections, QueryStats
 from course.engine.core.direct import Candidates, DirectLight, Reflection, Sums
-from course.engine.core.hits import Hits
+from course.engine.core.hits import Hits, Surface
 from course.engine.core.lights.sample import TO_THE_LIGHT, Light
-from course.engine.core.rays import Draws
+from course.engine.core.rays import Draws, Rays
 from course.engine.core.types import Floats32, Indices, Mask
 from course.engine.core.vectors import repeated
 from course.engine.terms.environments.sky import Sky
 from course.engine.terms.media.fog import NO_FOG, Fogs
+
+
+class KnownHits:
+    """A surface for one batch of rays whose hits are known."""
+
+    def __init__(self, surface: Surface, found: Intersections) -> None:
+        self._surface, self._found = surface, found
+
+    def intersect(self, _rays: Rays, _stats: QueryStats, _of_camera: bool) -> Intersections:
+        """See ``Surface``."""
+        return self._found
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._surface, name)
 
 
 @dataclass(frozen=True)

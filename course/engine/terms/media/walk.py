@@ -4,17 +4,20 @@ Before a ray comes to a surface, a flight in each box of fog may end. There all 
 path goes on in a direction that the phase function chooses.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from course.engine.core.accelerator import Intersections
 from course.engine.core.hits import Hits
+from course.engine.core.integrator import Integrator
 from course.engine.core.rays import OPEN, Draws, Rays
 from course.engine.core.types import Floats32, Indices, Mask, Media
 from course.engine.core.vectors import dot, repeated
 from course.engine.terms.media.fog import NO_FOG, Fogs
 from course.engine.terms.media.lamps import WAY, ArrivingLight, Lamps
+from course.engine.terms.media.through import KnownHits
 from course.engine.terms.media.watched import begun, numbered, tell, watcher_of
 from course.engine.terms.paths.path_tracing import PathIntegrator
 from course.engine.terms.paths.russian_roulette import survivors
@@ -37,7 +40,7 @@ class FogPathIntegrator(PathIntegrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
-    ) -> tuple[Rays, Mask | None, Intersections | None, tuple[Rays, Mask | None] | None]:
+    ) -> tuple[Rays, Mask | None, Integrator, tuple[Rays, Mask | None] | None]:
         """See ``PathIntegrator``."""
         rays = numbered(rays, depth, draws)
         assert rays.path is not None
@@ -76,7 +79,8 @@ class FogPathIntegrator(PathIntegrator):
             None if rays.start is None else rays.start.take(goes, axis=1),
         )
         met = Intersections(*(a.take(goes) for a in (found.triangle, found.u, found.v, found.t)))
-        return through, adds_lights, met, turned
+        known: Any = KnownHits(self.surface, met)
+        return through, adds_lights, replace(self, surface=known), turned
 
     def intersect(
         self,
@@ -85,10 +89,9 @@ class FogPathIntegrator(PathIntegrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
-        found: Intersections | None = None,
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """See ``Integrator``."""
-        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws), found)
+        return super().intersect(rays, adds_lights, depth, path_radiance, begun(draws))
 
     @property
     def _rays_find_it(self) -> bool:

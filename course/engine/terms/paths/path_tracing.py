@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.engine.core.accelerator import Intersections
 from course.engine.core.hits import Hits
 from course.engine.core.integrator import CancelledError, Integrator
 from course.engine.core.rays import RAYS, Draws, Rays, join_rays
@@ -112,10 +111,9 @@ class PathIntegrator(Integrator):
         """
         counters = draws.counters
         came = self.entered(rays, adds_lights, depth, path_radiance, draws)
-        rays, adds_lights, found, turned = came
-        seen = False if adds_lights is None else adds_lights
-        hits, throughput, path, medium = self.intersect(
-            rays, seen, depth, path_radiance, draws, found
+        rays, adds_lights, here, turned = came
+        hits, throughput, path, medium = here.intersect(
+            rays, False if adds_lights is None else adds_lights, depth, path_radiance, draws
         )
         if adds_lights is not None and hits.ray is not None:
             adds_lights = adds_lights.take(hits.ray)
@@ -148,12 +146,12 @@ class PathIntegrator(Integrator):
         depth: int,
         path_radiance: Floats32,
         draws: Draws,
-    ) -> tuple[Rays, Mask | None, Intersections | None, tuple[Rays, Mask | None] | None]:
-        """Rays as they come to surfaces, and ``adds_lights`` of these; what they hit; and rays that turn before.
+    ) -> tuple[Rays, Mask | None, Integrator, tuple[Rays, Mask | None] | None]:
+        """Rays as they come to surfaces, and ``adds_lights`` of these; who finds their hits; and rays that turn before.
 
-        Where space is empty all come, nothing is known of what they hit, and none turns: None.
+        Where space is empty all come, and none turns: None.
         """
-        return rays, adds_lights, None, None
+        return rays, adds_lights, self, None
 
     def _light(
         self,
