@@ -127,7 +127,7 @@ def test_gathered_light_is_that_of_paths(make_scene: MakeScene) -> None:
 def test_what_shines_counts_once(make_scene: MakeScene) -> None:
     """A closed ball whose wall is grey and whose lamp is a ball in the middle, as a light, and then as what glows.
 
-    A wall gets pi L r^2 = 0.16 from the lamp. Of light that leaves a wall the lamp's black ball takes a share of 0.04, r^2.
+    A wall gets pi L r^2 = 0.16 from the lamp. The lamp takes a share of r^2 = 0.04 of what leaves a wall, and is black.
     """
     parts: dict[str, Any] = {
         "camera": {"eye": [0, 0, 0.5], "look_at": [0, 0, 1], "vertical_fov": 40},
