@@ -78,7 +78,9 @@ class FogPathIntegrator(PathIntegrator):
             None if rays.time is None else rays.time.take(goes),
             None if rays.start is None else rays.start.take(goes, axis=1),
         )
-        met = Intersections(*(a.take(goes) for a in (found.triangle, found.u, found.v, found.t)))
+        met = Intersections(
+            found.triangle.take(goes), found.u.take(goes), found.v.take(goes), found.t.take(goes)
+        )
         known: Any = KnownHits(self.surface, met)
         return through, adds_lights, replace(self, surface=known), turned
 

@@ -191,7 +191,7 @@ def test_memory_is_bounded_whatever_is_gathered(make_scene: MakeScene, monkeypat
 
 
 def test_gathering_is_the_same_however_the_picture_is_rendered(make_scene: MakeScene) -> None:
-    scene = closed_ball(make_scene, film={"width": 24, "height": 20})
+    scene = closed_ball(make_scene, film={"width": 12, "height": 10})
     one, other = (render(scene, spp=16, threads=n).linear for n in (1, 2))
     assert np.array_equal(one, other)
 
@@ -203,7 +203,7 @@ def lit(scene: Scene) -> Floats64:
 def test_nearest_photons_make_the_caustic_that_a_filter_makes(make_scene: MakeScene) -> None:
     """A beam through a ball, averaged over the floor: its power; the disk of 60 is larger by a 59th at most."""
     beam = {"type": "directional", "direction": [0, -1, 0], "irradiance": 2}
-    parts: dict[str, Any] = {"lights": [beam], "film": {"width": 24, "height": 24}}
+    parts: dict[str, Any] = {"lights": [beam], "film": {"width": 16, "height": 16}}
     by_filter, by_nearest, without = (
         lit(caustics(make_scene, photons=photons, **parts))
         for photons in (

@@ -148,9 +148,9 @@ def _bounds(loaded: Loaded, frame: Frame, number: int, place: Corners | Sphere) 
     if isinstance(place, tuple):
         path = ("media", number, "sphere")
         center, radius = frame.position(place[0]), place[1] / frame.scale
-        ends = np.stack((center - radius, center + radius))
-        in_reach(ends, loaded, path, "an end")
-        _check_edges(*ends, loaded, path)
+        low, high = center - radius, center + radius
+        in_reach(np.stack((low, high)), loaded, path, "an end")
+        _check_edges(low, high, loaded, path)
         return Ball(center.astype(np.float32), radius)
     path = ("media", number, "box")
     low, high = (
