@@ -28,9 +28,6 @@ KINDS = (
 SURE = 1.0
 """What a slope's square must exceed its variance by: slopes of noise are none of the picture."""
 
-SHARED = 4.0
-"""Inflation from which on neighbours share so much noise that it has slopes of its own, and sharpness isn't tested."""
-
 SLOPE_VARIANCE = 0.125
 """Of a slope of the pictures' mean, in parts of the difference's variance; by the weights below."""
 
@@ -100,30 +97,30 @@ def _across_edges(at: Callable[[int, int], Floats64]) -> Floats64:
 
 
 def fields_of(
-    part: Strip, noise: DifferenceNoise, rounding: Floats64, inflation: float
+    part: Strip, noise: DifferenceNoise, rounding: Floats64, own_blur: float
 ) -> list[Field]:
     """Those of ``KINDS`` but the last two.
 
-    ``rounding``: by what differences may be off (H, W, 3); ``inflation``: as `course.engine.comparing.noise.Level`
+    ``rounding``: by what differences may be off (H, W, 3); ``own_blur``: as `course.engine.comparing.noise.Level`
     has it.
     """
     counted = part.usable[..., None] * ((np.abs(part.d) > rounding) | (rounding == 0))
     slopes = slopes_of((part.a + part.b) / 2, noise)
     squares = noise.size**2
-    if inflation > SHARED:
-        slopes.edges[:] = slopes.laplacian[:] = 0
-    weights = [
-        slope / squares * counted
-        for slope in (slopes.across, slopes.down, slopes.edges, slopes.laplacian)
-    ]
     even = counted / noise.size
-    return [
-        *(
-            _field(part.d, even, noise, rounding, slice(channel, channel + 1))
-            for channel in range(3)
-        ),
-        *(_field(part.d, weight, noise, rounding, slice(3)) for weight in weights),
+    fields = [
+        _field(part.d, even, noise, rounding, slice(channel, channel + 1)) for channel in range(3)
     ]
+    for slope, own in (
+        (slopes.across, 0.0),
+        (slopes.down, 0.0),
+        (slopes.edges, own_blur),
+        (slopes.laplacian, own_blur),
+    ):
+        field = _field(part.d, slope / squares * counted, noise, rounding, slice(3))
+        field.off[:] += own * (counted * (slope != 0)).sum(axis=2)
+        fields.append(field)
+    return fields
 
 
 def _field(

@@ -58,13 +58,28 @@ class Level:
     least : noise that a pixel has at least
     quieter : 0 or 1, the picture with less noise
     ratio : of the other's variance to its; 0 if they are about equal
-    inflation : by what the variance of a sum over many pixels exceeds that of independent ones
+    shared : correlation of neighbours
     """
 
     least: float
     quieter: int
     ratio: float
-    inflation: float
+    shared: float
+
+    @property
+    def inflation(self) -> float:
+        """By what the variance of a sum over many pixels exceeds that of independent ones."""
+        return float(np.sum(self.shared ** (np.arange(-8, 9.0) ** 2)) ** 2)
+
+    @property
+    def own_blur(self) -> float:
+        """How blurred, or sharp, noise is by itself, in parts of its variance, where one picture has nearly all of it.
+
+        Neighbours share a pixel's noise, and those farther off less: half of the difference of both is the covariance
+        of a pixel with the Laplacian of the pictures' mean. Of Laplacians of normal noise only those that are large
+        are kept, and they share twice as much at most.
+        """
+        return self.shared - self.shared**4
 
 
 @dataclass(frozen=True)
@@ -89,7 +104,7 @@ def level_of(parts: Sequence[Strip]) -> Level:
     some = np.concatenate([size[size > 0] for size in sizes])
     least = LEAST * float(np.median(some)) if some.size else 1.0
     quieter, ratio = _unequal(parts)
-    found = inflation([part.d.mean(axis=2) for part in parts])
+    found = shared_by_neighbours([part.d.mean(axis=2) for part in parts])
     return Level(max(least, 1e-300), quieter, ratio, found)
 
 
@@ -166,8 +181,8 @@ def _fine(values: Floats64) -> Floats64:
     return fine
 
 
-def inflation(differences: Sequence[Floats64]) -> float:
-    """By what neighbours that share samples raise the variance of sums of differences, (H, W) each.
+def shared_by_neighbours(differences: Sequence[Floats64]) -> float:
+    """Correlation of the noise of pixels side by side, which share samples, by differences (H, W) each.
 
     A filter's correlation falls off as a Gaussian, r at a distance of one pixel and r^(h^2) at h. Second differences at
     distances of 1 and 2 have the variances 6 - 8 r + 2 r^4 and 6 - 8 r^4 + 2 r^16, and of what differs smoothly they
@@ -176,11 +191,10 @@ def inflation(differences: Sequence[Floats64]) -> float:
     ratios = [_ratios(np.moveaxis(d, axis, 0)) for axis in (0, 1) for d in differences]
     of_all = np.concatenate(ratios)
     if not of_all.size:
-        return 1.0
+        return 0.0
     r = np.linspace(0, ALIKE, 901)
     expected = (6 - 8 * r + 2 * r**4) / (6 - 8 * r**4 + 2 * r**16)
-    found = float(r[np.abs(expected - np.median(of_all)).argmin()])
-    return float(np.sum(found ** (np.arange(-8, 9.0) ** 2)) ** 2)
+    return float(r[np.abs(expected - np.median(of_all)).argmin()])
 
 
 def _ratios(d: Floats64) -> Floats64:

@@ -118,7 +118,7 @@ def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False))
     signs: list[Mask] = []
     for part, own, rows in pair.strips(grid):
         noise, rounding = noise_of(part, level), pair.rounding(part)
-        fields = fields_of(part, noise, rounding, level.inflation)
+        fields = fields_of(part, noise, rounding, level.own_blur)
         strip = grid.strip(rows)
         cells.append(np.stack([field.cells(own, strip) for field in fields]))
         lines.add(fields, own)

@@ -24,6 +24,7 @@ Y, X = np.mgrid[:HEIGHT, :WIDTH]
 SMOOTH = np.stack([0.3 + 0.2 * np.sin(X / k) * np.cos(Y / 13) for k in (7, 9, 11)], axis=2)
 CHECKS = np.where((X - 64) ** 2 + (Y - 48) ** 2 < 900, 0.9, 0.2 + 0.5 * ((X // 17 + Y // 13) % 2))
 EDGES = CHECKS[..., None] * (1, 0.8, 0.6)
+SOFT = gaussian_filter(EDGES, (1.5, 1.5, 0))
 TRUTHS = pytest.mark.parametrize("truth", [SMOOTH, EDGES], ids=["smooth", "edges"])
 
 
@@ -77,9 +78,14 @@ def test_a_blur_by_a_pixel_is_found(truth: Array) -> None:
     assert_all_found(compared(truth, blurred, sigma), "A is sharper by about", "pixel")
 
 
-@TRUTHS
-def test_a_picture_that_was_blurred_with_its_noise_is_found(truth: Array) -> None:
-    for seed in range(SEEDS):
+@pytest.mark.parametrize(
+    ("truth", "seeds"),
+    [(SMOOTH, SEEDS), (EDGES, SEEDS), (SOFT, 3)],
+    ids=["smooth", "edges", "soft edges"],
+)
+def test_a_picture_that_was_blurred_with_its_noise_is_found(truth: Array, seeds: int) -> None:
+    """Of soft edges the difference is smooth itself, as if neighbours shared noise."""
+    for seed in range(seeds):
         rng = np.random.default_rng(seed)
         sharp, other = (noisy(truth, rng, 0.001) for _ in range(2))
         found = compare(sharp, gaussian_filter(other, (1, 1, 0)))
