@@ -32,6 +32,7 @@ class Bright:
     area : of all of them [unit of the compiled scene, squared]
     velocity : (3,) float64 [unit of the compiled scene / exposure]
     fronts : whether it shines, or can be seen, from the fronts of its triangles alone
+    closed : whether it has an inside
     """
 
     part: int
@@ -42,6 +43,11 @@ class Bright:
     area: float
     velocity: Floats64
     fronts: bool
+    closed: bool
+
+    def far(self, world: FullWorld) -> float:
+        """Distance from the scene's middle [unit of the compiled scene]."""
+        return float(np.linalg.norm(world.surface.triangles.planes[self.triangles[0], :3]))
 
     def points(self, world: FullWorld, u: Floats64) -> tuple[Floats64, Floats64, Indices]:
         """Places (3, n) at time 0, unit normals (3, n) and triangles (n,), evenly by area, from u (2, n) in [0, 1)."""
@@ -70,7 +76,12 @@ def parts_of(world: FullWorld) -> Indices:
 
 def bright_things(world: FullWorld, parts: Indices) -> Iterator[Bright]:
     """All meshes that shine; ``parts`` (T,) as `parts_of` has them."""
-    square, lamps = _squares(world), world.materials.lamps
+    return meshes_of(world, parts, _squares(world))
+
+
+def meshes_of(world: FullWorld, parts: Indices, square: Floats64) -> Iterator[Bright]:
+    """All meshes whose material has a square (M,) above 0."""
+    lamps = world.materials.lamps
     triangles = world.surface.triangles
     shining = np.flatnonzero(square.take(triangles.material) > 0)
     if not len(shining):
@@ -85,7 +96,7 @@ def bright_things(world: FullWorld, parts: Indices) -> Iterator[Bright]:
             continue
         material = int(triangles.material[shining[rows[0]]])
         normals = triangles.planes[shining[rows], 3:6]
-        closed = np.linalg.norm((areas[rows, None] * normals).sum(axis=0)) < CLOSED * area
+        closed = bool(np.linalg.norm((areas[rows, None] * normals).sum(axis=0)) < CLOSED * area)
         yield Bright(
             int(parts[shining[rows[0]]]),
             material,
@@ -94,7 +105,8 @@ def bright_things(world: FullWorld, parts: Indices) -> Iterator[Bright]:
             np.cumsum(areas[rows]) / area,
             area,
             velocities[rows[0]],
-            bool(closed) or (lamps is not None and bool(lamps[material])),
+            closed or (lamps is not None and bool(lamps[material])),
+            closed,
         )
 
 

@@ -2,10 +2,8 @@
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-
-from course.engine.core.camera import Camera
 from course.engine.render.adaptive.bright import bright_things, parts_of
+from course.engine.render.adaptive.bright_sky import small_lights, stars
 from course.engine.render.adaptive.glimpses import FIRST, UNIMPORTANT, glimpses
 from course.engine.render.adaptive.prior import Prior
 from course.engine.render.adaptive.reflections import Reflections
@@ -42,7 +40,10 @@ def foresee(job: Job, error: float) -> Foresight:
     # A pixel of it leaves as much as matters after the first samples.
     bright = FIRST * UNIMPORTANT * target * width * height
     if not can_be_asked(world):
-        some = any(thing.square > bright for thing in things)
+        some = (
+            any(thing.square > bright for thing in things)
+            or small_lights(world, bright) is not None
+        )
         why = "small bright things, for acceleration.type is hierarchy and no ray is sent ahead"
         return Foresight(unbounded=(why,) if some else ())
     camera = replace(
@@ -55,19 +56,12 @@ def foresee(job: Job, error: float) -> Foresight:
     chances = glimpses(world, view, things, parts, target)
     reflections = Reflections(world, view, things, parts, target, settings.max_depth)
     chances += reflections.chances()
+    chances += stars(world, view, bright)
     left = float((chances.square - chances.mean**2).mean()) / FIRST
     return Foresight(
         Prior(chances, target) if left > UNIMPORTANT * target else None,
         chances.rays,
         unbounded(
-            *(loaded.description, world, things, bright, settings.max_depth),
-            *(reflections.cut_short, _footprint(camera)),
+            loaded.description, world, things, bright, settings.max_depth, reflections.cut_short
         ),
     )
-
-
-def _footprint(camera: Camera) -> float:
-    """How wide a pixel sees what is far away, at a distance of 1."""
-    pixel = float(np.linalg.norm(camera.step_y))
-    lens = camera.lens
-    return pixel if lens is None else max(pixel, 2 * lens.aperture_radius / lens.focus_distance)

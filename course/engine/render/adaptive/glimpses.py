@@ -6,6 +6,7 @@ finds it by its first samples; only what no pixel is sure to find is looked at a
 hidden.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,7 +73,7 @@ def glimpses(
     sketch = int(np.clip(ALL // max(len(things), 1), FEWEST, SKETCH))
     small = []
     for thing in things:
-        pixel, chance = _put(world, view, thing, sketch, None)
+        pixel, chance = put(world, view, thing, sketch, None)
         seen = float(chance.sum())
         if 0 < seen < LARGE and not is_found(_sums(pixel, chance)):
             small.append((thing, len(np.unique(pixel)), seen * thing.square))
@@ -80,16 +81,14 @@ def glimpses(
     small = [small[number] for number in kept]
     for thing, pixels, _ in small:
         count = int(np.clip(EACH * pixels, sketch, min(MOST, ALL // len(small) + FEWEST)))
-        pixel, chance = _put(world, view, thing, count, parts)
-        shape = view.height, view.width
-        sums: Floats64 = _binned(pixel, chance, view.height * view.width).reshape(shape)
-        share: Floats64 = np.minimum(_even(sums, len(np.unique(pixel)), count), 1)
+        pixel, chance = put(world, view, thing, count, parts)
+        share = np.minimum(averaged(pixel, chance, result.mean.shape), 1)
         root = float(np.sqrt(thing.square))
         result += Chances(share * root, share * thing.square, count)
     return result
 
 
-def _put(
+def put(
     world: FullWorld, view: CameraAxes, thing: Bright, count: int, parts: Indices | None
 ) -> tuple[Indices, Floats64]:
     """Pixels (n,) that see points of a thing, and the share of each that a point stands for.
@@ -147,9 +146,10 @@ def _binned(place: Indices, values: Floats64, least: int = 0) -> Floats64:
     return np.bincount(place, values, least).astype(np.float64)
 
 
-def _even(share: Floats64, pixels: int, count: int) -> Floats64:
-    """Chances (H, W) averaged over squares of pixels where a pixel has few points."""
-    side = int(np.ceil(np.sqrt(EACH * pixels / count))) | 1
+def averaged(pixel: Indices, chance: Floats64, shape: tuple[int, ...]) -> Floats64:
+    """Sums (H, W) of chances (n,) in pixels (n,), averaged over squares of pixels where a pixel has few points."""
+    share: Floats64 = _binned(pixel, chance, math.prod(shape)).reshape(shape)
+    side = int(np.ceil(np.sqrt(EACH * len(np.unique(pixel)) / max(len(pixel), 1)))) | 1
     for _ in range(2 if side > 1 else 0):
         padded = np.pad(share, ((side // 2, side // 2), (0, 0)))
         rows = [padded[row : row + len(share)] for row in range(side)]

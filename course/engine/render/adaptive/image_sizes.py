@@ -14,6 +14,9 @@ from course.engine.render.adaptive.seen_ahead import CameraAxes
 EACH = 4
 """Points on one thing at most."""
 
+MEAN_COSINE = 0.25
+"""Of what is convex a quarter of the area is seen, on average over all directions (Cauchy)."""
+
 UNKNOWN = 2.0
 """Where no next block sends its ray the same way, the ways change by so many times the angle of a block."""
 
@@ -41,24 +44,30 @@ class ImageSizes:
         return float(self.grid.side * np.sqrt(self.view.pixel))
 
     def chance(
-        self, arrival: Arrival, place: Floats64, facing: Floats64, thing: Bright
-    ) -> tuple[Floats64, Mask]:
-        """Chances of a unit of area around a place on a thing.
+        self, arrival: Arrival, place: Floats64, facing: Floats64 | None, thing: Bright, both: Mask
+    ) -> tuple[Floats64, Floats64, Mask]:
+        """Chances of a unit of area around a place on a thing, and the mean squares of the shares that samples find.
+
+        A share is 1, but where points on the thing and the lobe are tried together: there each sample finds what part
+        of the lobe the thing fills, and only its place within the pixel is left to chance.
 
         Parameters
         ----------
-        place, facing : (3, 1), and the normal there
+        place, facing : (3, 1), and the normal there; None for a thing that faces all that it lights
+        both : (n,) which rays find the thing by its points, too
 
         Returns
         -------
-        (n,) of each ray that arrives, and where a cell blurs most
+        (n,) each, of the rays that arrive; at last where a cell blurs most
         """
         new, which, on = arrival.after, arrival.which, arrival.on
         way = place - new.origin
         far = np.maximum(np.sqrt((way * way).sum(axis=0)), 1e-12)
         way /= far
-        cos = -(way * facing).sum(axis=0)
-        cos = np.maximum(cos, 0) if thing.fronts else np.abs(cos)
+        cos = np.full_like(far, MEAN_COSINE if thing.closed else 1.0)
+        if facing is not None and not thing.closed:
+            cos = -(way * facing).sum(axis=0)
+            cos = np.maximum(cos, 0) if thing.fronts else np.abs(cos)
         apart = new.way - way
         steps = self._steps(apart, new)
         length = new.length + far
@@ -76,21 +85,45 @@ class ImageSizes:
         # As it would be in the blocks of the first rays, so that both tell the same.
         sharp = block * (self.side / self.grid.side) ** 2 > others
         width = block + (defocus + moved + size + new.blur)[which]
-        away = (apart[:, which] ** 2).sum(axis=0)
-        dense = np.exp(-away / (2 * width)) / (2 * np.pi * width)
-        rough = np.flatnonzero(on.alpha > 0)
-        if len(rough):
-            alpha = np.sqrt(on.alpha[rough] ** 2 + (width - new.blur[which])[rough] / 2)
-            ways = (
-                arrival.before.way[:, which[rough]],
-                way[:, which[rough]],
-                arrival.normal[:, rough],
-            )
-            dense[rough] = facets_density(*ways, np.minimum(alpha, 1))
-        result: Floats64 = dense * (cos / far**2)[which]
-        return result, sharp
+        apart, way, solid = apart[:, which], way[:, which], (cos / far**2)[which]
+        met = _density(arrival, apart, way, width, on.alpha) * solid
+        if not both.any():
+            return met, met, sharp
+        # What is blurred by more than a block differs within a pixel alone.
+        within = np.where(sharp, block, block / max(self.grid.side, 1) ** 2)
+        lobe = on.blur + 2 * on.alpha**2
+        filled = solid * thing.area / (solid * thing.area + 4 * np.pi * lobe + 1e-300)
+        squared = filled * solid
+        squared *= _density(
+            arrival, apart, way, width - block + within - on.blur / 2, on.alpha / np.sqrt(2)
+        )
+        return met, np.where(both, squared, met), sharp
 
     def _steps(self, apart: Floats64, new: Front) -> Floats64:
         """The larger of the squared changes (n,) of what is apart (3, n) from cell to cell, along either axis."""
         changes = self.grid.changes(apart, new.key)
         return np.where(changes >= 0, changes, (UNKNOWN * self.angle) ** 2)
+
+
+def _density(
+    arrival: Arrival, apart: Floats64, way: Floats64, width: Floats64, alpha: Floats64
+) -> Floats64:
+    """How dense the ways of rays are around ways (3, n), (n,) [1/sr].
+
+    Parameters
+    ----------
+    apart : (3, n) by what the rays' own ways differ
+    width : (n,) variance of the ways in each direction, but for microfacets
+    alpha : (n,) roughness of these
+    """
+    dense = np.exp(-(apart**2).sum(axis=0) / (2 * width)) / (2 * np.pi * width)
+    rough = np.flatnonzero(alpha > 0)
+    if len(rough):
+        blur = arrival.after.blur[arrival.which[rough]]
+        wider = np.sqrt(alpha[rough] ** 2 + np.maximum(width[rough] - blur, 0) / 2)
+        before = arrival.before.way[:, arrival.which[rough]]
+        dense[rough] = facets_density(
+            before, way[:, rough], arrival.normal[:, rough], np.minimum(wider, 1)
+        )
+    result: Floats64 = dense
+    return result

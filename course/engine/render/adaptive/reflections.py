@@ -12,6 +12,7 @@ import numpy as np
 
 from course.engine.core.hits import Surface
 from course.engine.core.types import Floats64, Indices, Mask
+from course.engine.render.adaptive.bare_lights import NO_PART, bare_lights
 from course.engine.render.adaptive.bright import EVEN, Bright
 from course.engine.render.adaptive.cell_grid import CellGrid, spread
 from course.engine.render.adaptive.glimpses import Chances, important, is_found
@@ -19,6 +20,9 @@ from course.engine.render.adaptive.image_sizes import EACH, ImageSizes
 from course.engine.render.adaptive.lobes_ahead import Surfaces
 from course.engine.render.adaptive.rays_ahead import Arrival, Front, by_surfaces, scattered
 from course.engine.render.adaptive.seen_ahead import CameraAxes, nearest
+from course.engine.render.adaptive.thin_mirrors import thin_mirrors
+from course.engine.terms.surfaces.painting import NOT_PAINTED
+from course.engine.terms.surfaces.surface import FullSurface
 from course.engine.terms.world import FullWorld
 
 BLOCKS = 8192
@@ -38,6 +42,15 @@ PASSES = 2
 
 ASKED = 64
 """Cells of an image, about, from which rays are sent to see whether something hides it."""
+
+MET = 0.5
+"""Share of a pixel's places from which on a thing is met by the first samples, if they find it by points on it."""
+
+TINY = 1e-300
+"""Counts as the least that is looked at more closely."""
+
+BESIDE = 1e-3
+"""Part of the way to a point light in which what is met doesn't hide it: it may be what it hangs on."""
 
 FAINT = 0.02
 """Of the variance that is aimed at, what a sample of a pixel may have for which nothing is looked at."""
@@ -105,14 +118,17 @@ class Reflections:
         self._rows, self._columns = -(-view.height // self._side), -(-view.width // self._side)
         count = int(np.clip(POINTS // max(len(things), 1), 1, EACH))
         u = (np.arange(1, count + 1) * EVEN[:2, None]) % 1
-        self._things = [(thing, *thing.points(world, u)) for thing in things]
-        self._wanted = set(range(len(things)))
+        self._things: list[tuple[Bright, Floats64, Floats64 | None]] = [
+            (thing, *thing.points(world, u)[:2]) for thing in things
+        ]
+        self._things += [(light, place, None) for light, place in bare_lights(world)]
+        self._wanted = set(range(len(self._things)))
         self._rays = 0
-        moves = any(thing.velocity.any() for thing in things) or view.velocity.any()
+        moves = any(one[0].velocity.any() for one in self._things) or view.velocity.any()
         self._passes = PASSES if view.aperture or moves else 1
         self._step = 1 / self._passes if moves else 0.0
         self.cut_short: set[int] = set()
-        """Materials at which rays weren't followed further."""
+        """Materials at which rays weren't followed rightly or further, or that they may have missed."""
 
     def chances(self) -> Chances:
         """Of all pixels."""
@@ -128,25 +144,48 @@ class Reflections:
         kept = [images[number] for number in important(left, self._target * height * width)]
         kept = [image.part(self._is_seen(image)) for image in kept]
         left = np.array([pixels * image.square.sum() for image in kept])
-        if not len(important(left, self._target * height * width)):
+        thin = self._thin()
+        if not len(important(left, self._target * height * width)) and not thin:
             return replace(Chances.none(height, width), rays=self._rays)
         blurred = self._added(grid, [image.part(~image.sharp) for image in kept])
         sharp = np.zeros(grid.size)
         for image in kept:
             np.maximum.at(sharp, image.cells[image.sharp], image.square[image.sharp])
+        sharp[list(thin)] = np.maximum(sharp[list(thin)], TINY)
         chosen, cells = np.flatnonzero(sharp), 2 * self._side
         most = max(int(FINEST * height * width), FEWEST) // cells**2
         if len(chosen) > most:
             chosen = np.sort(chosen[np.argsort(-sharp[chosen], kind="stable")][:most])
+            self.cut_short.update(thin[block] for block in set(thin) - set(chosen.tolist()))
         if not len(chosen):
             return replace(blurred, rays=self._rays)
         within = np.indices((cells, cells)) / 2
         places = corners.reshape(2, -1)[:, chosen, None, None] + within[:, None]
         grid = CellGrid(places, 0.5, (len(chosen), cells, cells))
-        self._wanted = {image.thing for image in kept if image.sharp.any()}
+        if not thin:
+            self._wanted = {image.thing for image in kept if image.sharp.any()}
         images = [image.part(image.sharp) for image in self._send(grid) if image.sharp.any()]
         close = self._added(grid, [image.part(self._is_seen(image)) for image in images])
         return blurred + Chances(spread(close.mean), spread(close.square), self._rays)
+
+    def _thin(self) -> dict[int, int]:
+        """Blocks with surfaces that their rays may have missed, and the materials of these."""
+        mirrors = self._surfaces.sends_on.astype(np.float64)
+        thin = thin_mirrors(
+            *(self._world, self._view, self._parts, mirrors, self._side), self._matters
+        )
+        self._rays += thin.rays
+        self.cut_short |= thin.too_small
+        return thin.blocks
+
+    def _matters(self, pixels: float, material: int) -> bool:
+        """Whether an image on so many pixels would leave as much as matters, of any thing that a material shows."""
+        both = self._world.combining
+        metal = both is not None and bool(both.is_metal[material])
+        left = self._target * self._view.height * self._view.width
+        squares = [one.square for one, *_ in self._things if metal or one.part != NO_PART]
+        most = min(pixels, 1) * max(squares, default=0.0)
+        return len(important(np.array([most]), left)) > 0
 
     def _send(self, grid: CellGrid) -> list[_Image]:
         """Send rays through all cells; returns the images that they find."""
@@ -201,6 +240,11 @@ class Reflections:
         part = self._parts.take(hits.triangle[sent])
         normal = hits.ns[:, sent].astype(np.float64)
         geometric = hits.ng[:, sent].astype(np.float64)
+        surface = self._world.surface
+        if isinstance(surface, FullSurface) and surface.relief is not None:
+            # Rays ahead see what is bumpy as smooth.
+            bumpy = surface.relief.maps.row.take(hits.triangle[sent]) != NOT_PAINTED
+            self.cut_short.update(np.unique(material[sent][bumpy]).tolist())
         leaving = self._surfaces.onward(
             material[sent], front.way[:, which], normal, hits.entering[sent]
         )
@@ -213,49 +257,56 @@ class Reflections:
             self._look(Arrival(front, new, which, on, normal, material[sent], time))
             blunt = on.blur + on.alpha**2 > SHARP
             new.square[which[blunt]] = 0
-            if blunt.any() and np.count_nonzero(self._surfaces.sends_on) > 1:
+            if self._deepest > 1 and blunt.any() and np.count_nonzero(self._surfaces.sends_on) > 1:
                 self.cut_short.update(np.unique(material[sent][blunt]).tolist())
             self._follow(new, time, left - 1)
 
     def _look(self, arrival: Arrival) -> None:
         """Add the chances that rays which have come to a surface meet things next."""
         after, which = arrival.after, arrival.which
-        for number, (thing, points, normals, _) in enumerate(self._things):
+        for number, (thing, points, normals) in enumerate(self._things):
             if number not in self._wanted:
                 continue
-            looked_for = self._looked_for(arrival.material, thing)
-            chance = np.zeros((points.shape[1], len(which)))
+            both = self._both(arrival.material, thing)
+            found = np.zeros((2, points.shape[1], len(which)))
             sharp = np.zeros(len(which), np.bool_)
             for row in range(points.shape[1]):
                 place = points[:, row : row + 1] + thing.velocity[:, None] * arrival.time
-                chance[row], narrow = self._sizes.chance(
-                    arrival, place, normals[:, row : row + 1], thing
-                )
+                facing = None if normals is None else normals[:, row : row + 1]
+                *found[:, row], narrow = self._sizes.chance(arrival, place, facing, thing, both)
                 sharp |= narrow
-            total = np.minimum(chance.sum(axis=0) * thing.area / points.shape[1], 1)
-            square = total * after.square[which] * thing.square
-            some = np.flatnonzero((square > FAINT * self._target) & ~looked_for)
+            total, squared = np.minimum(found.sum(axis=1) * thing.area / points.shape[1], 1)
+            squared = np.maximum(squared, total**2)
+            chance = np.divide(total**2, squared, out=np.ones_like(total), where=squared > 0)
+            square = squared * after.square[which] * thing.square
+            some = (square > FAINT * self._target) & ~(both & (chance > MET))
+            # No ray meets it.
+            some = np.flatnonzero(some & both if normals is None else some)
             for image in by_surfaces(after.key[which[some]]):
                 mine = some[image]
-                if self._grid.coarse and is_found(np.repeat(total[mine], self._side**2)):
+                if self._grid.coarse and is_found(np.repeat(chance[mine], self._side**2)):
                     continue
-                arrays = total[mine], square[mine], sharp[mine], after.origin[:, which[mine]]
+                arrays = chance[mine], square[mine], sharp[mine], after.origin[:, which[mine]]
                 self._images.append(_Image(which[mine], *arrays, number, arrival.time))
 
-    def _looked_for(self, material: Indices, thing: Bright) -> Mask:
-        """(n,) at which of the hits lamps and lobes are sampled together, so that a thing is found by its points."""
+    def _both(self, material: Indices, thing: Bright) -> Mask:
+        """(n,) at which of the hits a thing is found by its points, too, for lamps and lobes are sampled together."""
         both = self._world.combining
+        if both is not None and thing.part == NO_PART:
+            return np.asarray(both.is_metal.take(material))
         if both is None or all(lamp.material != thing.material for lamp in both.lamps):
             return np.zeros(len(material), np.bool_)
         return np.asarray(both.is_glossy.take(material))
 
     def _is_seen(self, image: _Image) -> Mask:
         """(n,) from where a point of the thing is seen: asked of some cells, which speak for those after them."""
-        thing, points, _, _ = self._things[image.thing]
+        thing, points, _ = self._things[image.thing]
         step = -(-len(image.cells) // ASKED)
         origin, cells = image.origin[:, ::step], image.cells[::step]
         self._rays += len(cells)
         place = points[:, cells % points.shape[1]] + thing.velocity[:, None] * image.time
         found = nearest(self._world, origin, place - origin, np.full(len(cells), image.time))
         seen = (found.triangle >= 0) & (self._parts.take(found.triangle) == thing.part)
+        if thing.part == NO_PART:
+            seen = (found.triangle < 0) | (found.t > 1 - BESIDE)
         return np.repeat(seen, step)[: len(image.cells)]

@@ -8,16 +8,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from course.engine.core.environment import CubeEnvironment
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.description import SceneDescription
 from course.engine.render.adaptive.bright import Bright
+from course.engine.render.adaptive.bright_sky import RARE, small_lights
 from course.engine.render.adaptive.lobes_ahead import Surfaces
 from course.engine.scene.building.materials import material_columns
 from course.engine.terms.world import FullWorld
-
-RARE = 1 / 64
-"""A thing is small if so few of all directions lead to it, seen from a distance of half the scene's size."""
 
 NAMED = 3
 """Things and materials of a kind that are named."""
@@ -30,7 +27,6 @@ def unbounded(
     bright: float,
     deepest: int,
     cut_short: Iterable[int],
-    footprint: float,
 ) -> tuple[str, ...]:
     """What an estimate of the error doesn't bound, a line for each cause.
 
@@ -38,17 +34,19 @@ def unbounded(
     ----------
     bright : mean square of a radiance from which on a single pixel of it matters
     deepest : surfaces that rays meet after the first, at most
-    cut_short : materials at which rays sent ahead weren't followed further
-    footprint : how wide a pixel, or what a lens makes of it, is at a distance of 1
+    cut_short : materials at which rays sent ahead weren't followed further, or that they may have missed
     """
-    small = [one for one in things if one.square > bright and one.area < 4 * np.pi * RARE]
+    # Seen from a distance of half the scene's size, or from the scene's middle.
+    small = [
+        one
+        for one in things
+        if one.square > bright and one.area < 4 * np.pi * RARE * max(one.far(world), 1) ** 2
+    ]
     lamps = _listed(_thing(scene, one.material) for one in small)
-    sky = _has_small_lights(world, bright)
-    told = []
+    sky = small_lights(world, bright) is not None
+    told = list[str]()
     if sky:
         lamps = _listed([*([lamps] if lamps else []), "small lights of the environment"])
-        if _texel(world) < footprint / 2:
-            told.append("small lights of the environment, smaller than pixels")
     if not lamps or not deepest:
         return tuple(told)
     sends_on = np.flatnonzero(Surfaces(world).sends_on)
@@ -66,25 +64,10 @@ def unbounded(
     elif sky and len(sends_on):
         by = _listed(_thing(scene, number) for number in sends_on.tolist())
         told.append(f"images of small lights of the environment in {by}")
-    if deepest > 1 and small and (further := sorted(set(cut_short))):
+    if small and (further := sorted(set(cut_short))):
         by = _listed(_thing(scene, number) for number in further)
         told.append(f"images of {_listed(_thing(scene, one.material) for one in small)} in {by}")
     return tuple(told)
-
-
-def _has_small_lights(world: FullWorld, bright: float) -> bool:
-    """Whether few directions of the environment are so bright that a single pixel of them matters."""
-    environment = world.environment
-    if not isinstance(environment, CubeEnvironment):
-        return False
-    square = (environment.faces.astype(np.float64) ** 2).mean(axis=-1)
-    return 0 < float((square > max(bright, 4 * float(square.mean()))).mean()) < RARE
-
-
-def _texel(world: FullWorld) -> float:
-    """How wide one of a cube map's texels is at a distance of 1, in the middle of a face."""
-    assert isinstance(world.environment, CubeEnvironment)
-    return 2 / len(world.environment.faces[0])
 
 
 def _thing(scene: SceneDescription, material: int) -> str:

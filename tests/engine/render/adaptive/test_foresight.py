@@ -25,6 +25,7 @@ from course.engine.formats.pictures.display import Display
 from course.engine.formats.pictures.files import save
 from course.engine.loops.library import available
 from course.engine.render.adaptive.bright import bright_things, parts_of
+from course.engine.render.adaptive.bright_sky import stars
 from course.engine.render.adaptive.film import PARTS, AdaptiveFilm
 from course.engine.render.adaptive.foresight import Foresight, foresee
 from course.engine.render.adaptive.glimpses import Chances, glimpses
@@ -250,16 +251,19 @@ def test_a_caustic_is_told_by_name(make_scene: MakeScene) -> None:
     assert told > float(np.mean(apart)) / 4
 
 
-def stars(tmp_path: Path, side: int) -> dict[str, Any]:
-    """An environment whose cube map has faces of side x side texels; one of a hundred is a star."""
+def star(tmp_path: Path, side: int, row: int, column: int) -> dict[str, Any]:
+    """An environment whose cube map has one bright texel, on the face at -z that has side x side of them.
+
+    OpenGL's table: seen from within, its rows run from the left to the right and down.
+    """
     cross = np.full((3 * side, 4 * side, 3), 0.01, np.float32)
-    cross.reshape(-1, 3)[np.random.default_rng(1).integers(0, 12 * side**2, side**2 // 8)] = 1000
-    save(tmp_path / "stars.exr", np.moveaxis(cross, 2, 0), Display())
-    return {"type": "cube", "cross": "stars.exr"}
+    cross[side + row, 3 * side + column] = 1000
+    save(tmp_path / "star.exr", np.moveaxis(cross, 2, 0), Display())
+    return {"type": "cube", "cross": "star.exr"}
 
 
 @pytest.mark.parametrize(
-    ("side", "more", "told"),
+    ("side", "more", "foreseen"),
     [
         # Pixels are 2 tan 20 / 36 = .020 wide, texels 2 / side.
         (256, {}, True),
@@ -268,17 +272,44 @@ def stars(tmp_path: Path, side: int) -> dict[str, Any]:
         (128, {"lens": {"aperture_radius": 0.1, "focus_distance": 5}}, True),
     ],
 )
-def test_stars_that_are_smaller_than_pixels_are_told(
-    make_scene: MakeScene, tmp_path: Path, side: int, more: dict[str, Any], told: bool
+def test_a_star_that_is_smaller_than_pixels_is_foreseen(
+    make_scene: MakeScene, tmp_path: Path, side: int, more: dict[str, Any], foreseen: bool
 ) -> None:
-    scene = scene_of(
-        make_scene,
-        camera={"eye": [0, 0, DISTANCE], "look_at": [0, 0, 0], "vertical_fov": FOV} | more,
-        environment=stars(tmp_path, side),
-        integrator={"max_depth": 0},
-    )
-    known = seen_ahead(scene, 0.01).unbounded
-    assert known == (("small lights of the environment, smaller than pixels",) if told else ())
+    """The face lies on the plane at distance 1, as pixels do: a texel is (2 / side)^2 of it."""
+    row, column = int(0.46 * side), int(0.57 * side)
+    at_wall = {"shape": "box", "material": "grey", "size": [0.6, 3, 0.1]}
+    parts: dict[str, Any] = {
+        "camera": {"eye": [0, 0, DISTANCE], "look_at": [0, 0, 0], "vertical_fov": FOV} | more,
+        "environment": star(tmp_path, side, row, column),
+        "materials": {"grey": {}},
+        "integrator": {"max_depth": 0},
+    }
+    found = [
+        sky_ahead(
+            scene_of(make_scene, **parts, objects=[at_wall | {"transform": [{"translate": at}]}])
+        )
+        for at in ((0.7, 0, 0), (-0.7, 0, 0))
+    ]
+    if not foreseen:
+        assert found[0].square.sum() == 0
+        return
+    share = (2 / side / PIXEL) ** 2
+    assert found[0].mean.sum() == pytest.approx(1000 * share, rel=0.02)
+    assert found[0].square.sum() == pytest.approx(1000**2 * share, rel=0.02)
+    x, y = ((2 * (k + 0.5) / side - 1) / PIXEL for k in (column, row))
+    rows, columns = np.nonzero(found[0].mean)
+    weights = found[0].mean[rows, columns]
+    middle = np.average([rows, columns], axis=1, weights=weights) + 0.5
+    assert middle == pytest.approx((HEIGHT / 2 + y, WIDTH / 2 - x), abs=0.7)
+    # The second wall hides it.
+    assert found[1].square.sum() == 0
+
+
+def sky_ahead(scene: Scene) -> Chances:
+    world = scene.compiled.world
+    camera = compile_camera(scene.loaded, scene.compiled.frame, WIDTH, HEIGHT)
+    view = CameraAxes.of(replace(camera, lens=world.lens), world, WIDTH, HEIGHT)
+    return stars(world, view, 0.01)
 
 
 # --- What is seen ahead ---------------------------------------------------------------------------
@@ -338,6 +369,104 @@ def test_a_mirror_has_a_prior_where_it_shows_the_ball(make_scene: MakeScene) -> 
     pixel = int(y) * WIDTH + int(x)
     assert pixel in prior.pixels
     assert len(prior.pixels) < 30
+
+
+BEAD: dict[str, Any] = {
+    "materials": {"mirror": {"color": 0, "mirror": 1}},
+    "lights": [{"type": "sphere", "center": [0, 3, DISTANCE], "radius": 0.1, "radiance": 8e5}],
+    "integrator": {"max_depth": 3},
+}
+
+
+def bead(pixels: float) -> dict[str, Any]:
+    """A ball of so many pixels' radius where four blocks of 4 x 4 pixels meet, 2.8 pixels from their middles."""
+    radius = pixels * PIXEL * DISTANCE
+    return {"shape": "sphere", "name": "bead", "material": "mirror", "radius": radius}
+
+
+def test_a_glint_in_a_bead_has_a_prior(make_scene: MakeScene) -> None:
+    """A mirroring ball scatters evenly: of a lamp that fills W sr it shows an image of W R^2 / 4."""
+    scene = scene_of(make_scene, **BEAD, objects=[bead(1.5)])
+    known = seen_ahead(scene, 1)
+    assert known.unbounded == ()
+    assert known.prior is not None
+    image = math.pi * 0.1**2 / (3**2 + DISTANCE**2) * 1.5**2 / 4
+    # Of n samples of a pixel each finds L with the chance c: mean L c, and variance L^2 c (1 - c).
+    chance, variance = known.prior._chance, known.prior._variance
+    mean = np.sqrt(variance / (1 - chance) * chance)
+    assert 0.4 < mean.sum() / (8e5 * image) < 2.5
+    rows, columns = np.divmod(known.prior.pixels, WIDTH)
+    assert abs(rows - HEIGHT / 2 + 0.5).max() <= 2.5
+    assert abs(columns - WIDTH / 2 + 0.5).max() <= 2.5
+
+
+def test_a_bead_of_less_than_a_pixel_is_told(make_scene: MakeScene) -> None:
+    scene = scene_of(make_scene, **BEAD, objects=[bead(0.4)])
+    assert seen_ahead(scene, 1).unbounded == ("images of light 0 in bead",)
+
+
+@pytest.mark.parametrize("bumpy", [True, False])
+def test_a_lamp_in_a_bumpy_mirror_is_told(make_scene: MakeScene, bumpy: bool) -> None:
+    """Each bump may have an image of its own."""
+    bump = {"bump": {"noise": {"scale": 5}, "height": 0.02}} if bumpy else {}
+    material = {"color": 0, "mirror": 1} | bump
+    wall = {"shape": "quad", "name": "wall", "material": "mirror", "width": 8, "depth": 8}
+    wall |= {"transform": [{"rotate": {"axis": [1, 0, 0], "degrees": 90}}]}
+    scene = scene_of(make_scene, **(BEAD | {"materials": {"mirror": material}}), objects=[wall])
+    told = ("images of light 0 in wall",)
+    assert seen_ahead(scene, 1).unbounded == (told if bumpy else ())
+
+
+@pytest.mark.parametrize("way", ["power", "lobe"])
+def test_a_lamp_in_a_smooth_lobe_has_a_prior_though_its_points_are_sampled_with_it(
+    make_scene: MakeScene, way: str
+) -> None:
+    """The image in a wall at z = -2 fills pi (r / d / PIXEL)^2 of a pixel; the lobe widens it by a tenth of one."""
+    wall = {"shape": "quad", "material": "wall", "width": 8, "depth": 8}
+    wall |= {
+        "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": 90}}, {"translate": [0, 0, -2]}]
+    }
+    lobe = {"lobe": "phong", "exponent": 2e6}
+    scene = scene_of(
+        make_scene,
+        materials={"wall": {"color": 0, "mirror": 1, "gloss": lobe}},
+        objects=[wall],
+        lights=[
+            {"type": "sphere", "center": [1, 0.6, 4], "radius": 0.04, "radiance": 4000}
+            | {"samples": "visible"}
+        ],
+        integrator={"max_depth": 2, "gloss_sampling": way},
+    )
+    prior = seen_ahead(scene, 0.05).prior
+    assert prior is not None
+    share = math.pi * (0.04 / (DISTANCE + 2 + 6) / PIXEL) ** 2
+    mean = np.sqrt(prior._variance / (1 - prior._chance) * prior._chance)
+    assert 0.5 < mean.sum() / (4000 * share) < 2
+    x, y = pictured(np.array(1.0), np.array(0.6), -2 - 6)
+    assert int(y) * WIDTH + int(x) in prior.pixels
+
+
+def test_a_highlight_of_a_point_light_has_a_prior(make_scene: MakeScene) -> None:
+    """Metal of roughness .001 at z = -2 shows it as a mirror shows a disk of twice its slope: under a pixel."""
+    wall = {"shape": "quad", "material": "metal", "width": 8, "depth": 8}
+    wall |= {
+        "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": 90}}, {"translate": [0, 0, -2]}]
+    }
+    conductor = {"refraction_index": 1.5, "absorption_index": 6, "roughness": 0.001}
+    scene = scene_of(
+        make_scene,
+        materials={"metal": {"color": 0, "mirror": 1, "conductor": conductor}},
+        objects=[wall],
+        lights=[{"type": "point", "position": [1, 0.6, 4], "intensity": 30}],
+        integrator={"max_depth": 2},
+    )
+    prior = seen_ahead(scene, 0.05).prior
+    assert prior is not None
+    x, y = pictured(np.array(1.0), np.array(0.6), -2 - 6)
+    assert int(y) * WIDTH + int(x) in prior.pixels
+    # The image of intensity I at the distance d has I / d^2 over all pixels, times what metal mirrors: .86.
+    mean = np.sqrt(prior._variance / (1 - prior._chance) * prior._chance)
+    assert 0.4 < mean.sum() / (0.86 * 30 / (DISTANCE + 2 + 6) ** 2 / PIXEL**2) < 2.5
 
 
 def test_scenes_without_small_bright_things_pay_nothing(make_scene: MakeScene) -> None:
