@@ -37,7 +37,7 @@ def bare_lights(world: FullWorld) -> Iterator[tuple[Bright, Floats64]]:
                 place = light.position
             case _:
                 continue
-        area = np.pi * radius**2
+        area = radius * radius * np.pi
         radiance = np.pi * light.color.astype(np.float64) * far**2 / area
         velocity = np.zeros(3) if light.velocity is None else light.velocity.astype(np.float64)
         none = np.empty(0, np.intp), np.empty(0)
