@@ -46,6 +46,9 @@ QUIET = 0.2
 ALIKE = 0.8
 """Logarithm of a ratio of two estimated variances from which on it is rather a difference than noise."""
 
+STEEP = 8
+"""How sharply: with 4, a second picture of three times the error counted as one of twice the error."""
+
 DOUBT = 0.28
 """Standard deviation of the logarithm of the variance that a film tells by itself, over scenes."""
 
@@ -182,6 +185,6 @@ def _part_of_first(first: float, second: float) -> tuple[float, float]:
         The part, and by how much its logarithm falls where that of ``second`` grows.
     """
     lead = math.log(second / first) if second > first else 0.0
-    believed = lead**4 / (lead**4 + ALIKE**4)
+    believed = lead**STEEP / (lead**STEEP + ALIKE**STEEP)
     part = 1 / (1 + math.exp(believed * lead))
-    return part, (1 - part) * believed * (5 - 4 * believed)
+    return part, (1 - part) * believed * (1 + STEEP * (1 - believed))
