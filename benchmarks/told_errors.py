@@ -62,7 +62,8 @@ def figures(found: Sequence[Runs]) -> list[Figure]:
     result = [Figure(label, share, share, share, GOAL, at_least=True)]
     if steady := [one for one in found if spread(one) <= STEADY]:
         share = near(steady)
-        label = f"--error: the same in {len(steady)} of {len(found)} scenes, whose error spreads by {STEADY:.0%}"
+        some = f"{len(steady)} of {len(found)} scenes"
+        label = f"--error: the same in {some}, whose error spreads by {STEADY:.0%} at most"
         result.append(Figure(label, share, share, share, GOAL, at_least=True))
     bounded = [max(one.ratios) for one in found if one.bounded]
     if bounded:
