@@ -365,8 +365,8 @@ def test_rays_that_a_grid_would_need() -> None:
         assert told(times, needed / point.rays, within=1e-3 * needed / point.rays), depth
     threshold, fallen, left, depth, needed_rays = said(
         "adaptive_sampling",
-        r"With a threshold of N it falls to N\. With the wires in the scene it stays at N from depth N on, which a "
-        r"grid reaches with N rays\.",
+        r"With a threshold of N the error falls to N\. With the wires in the scene it stays at N from depth N on, "
+        r"which a grid reaches with N rays\.",
     )
     assert told(fallen, _points(edges, f"divided over {threshold}")[-1].error)
     thin = _points(wires, "divided over 0.1")
