@@ -14,10 +14,10 @@ import click
 import numpy as np
 
 from benchmarks.figures import Figure, summary, table
+from benchmarks.mitsuba_agreement import Converged, converge
 from course import Scene, render
-from course.base.atomic import replacing
+from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import print_tables
-from course.engine.core.types import Floats64
 from course.engine.functions.effects import PROJECT
 from course.engine.scene.scene import load_variant
 
@@ -26,22 +26,14 @@ PHOTONS = {"count": 100_000, "radius": 0.02, "samples": 16}
 REFERENCE = Path("out/references")
 
 
-def reference(scene: Scene, samples: int, batches: int) -> tuple[Floats64, float]:
-    """The mean of pictures by paths, and its own mean squared error; kept in a folder."""
-    path = REFERENCE / f"caustic_{samples}_{batches}.npz"
-    if path.is_file():
-        with np.load(path) as kept:
-            return kept["mean"], float(kept["error"])
-    pictures = [
-        np.asarray(render(scene, spp=samples, seed=10_000 + k).linear, np.float64)
-        for k in range(batches)
-    ]
-    mean = np.mean(pictures, axis=0)
-    own = float(np.var(pictures, axis=0, ddof=1).mean() / batches)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez(file, mean=mean, error=own)
-    return mean, own
+def reference(scene: Scene, samples: int, batches: int) -> Converged:
+    """The mean of pictures by paths; kept in a folder."""
+    key = scene_hash(scene.loaded, scene.effects, samples=samples, batches=batches)
+    return converge(
+        lambda seed: render(scene, spp=samples, seed=seed).linear,
+        batches,
+        REFERENCE / f"caustic_{key[:24]}.npz",
+    )
 
 
 def measure(
@@ -50,10 +42,10 @@ def measure(
     """How many times longer paths take than photons."""
     by_paths = load_variant(SCENE)
     by_photons = load_variant(SCENE, {("photons",): PHOTONS})
-    truth, own = reference(by_paths, reference_spp, batches)
-    ways: dict[str, Callable[[int], Floats64]] = {
-        "paths": lambda seed: np.asarray(render(by_paths, spp=paths_spp, seed=seed).linear),
-        "photons": lambda seed: np.asarray(render(by_photons, spp=photons_spp, seed=seed).linear),
+    truth = reference(by_paths, reference_spp, batches)
+    ways: dict[str, Callable[[int], np.ndarray]] = {
+        "paths": lambda seed: render(by_paths, spp=paths_spp, seed=seed).linear,
+        "photons": lambda seed: render(by_photons, spp=photons_spp, seed=seed).linear,
     }
     seconds: dict[str, list[float]] = {name: [] for name in ways}
     errors: dict[str, list[float]] = {name: [] for name in ways}
@@ -62,13 +54,13 @@ def measure(
             begun = perf_counter()
             made = picture(seed)
             seconds[name].append(perf_counter() - begun)
-            errors[name].append(float(((made.astype(np.float64) - truth) ** 2).mean()) - own)
+            errors[name].append(truth.mse(made))
     for name in ways:
         # The first compiles.
         errors[name], seconds[name] = errors[name][1:], seconds[name][1:]
         print(
             f"{name}: RMSE {np.mean(errors[name]) ** 0.5:.5f}, {median(seconds[name]):.3f} s"
-            f" (the reference: {own**0.5:.5f})"
+            f" (the reference: {truth.noise**0.5:.5f})"
         )
     scale = float(np.mean(errors["paths"]) / np.mean(errors["photons"]))
     both = zip(seconds["paths"], seconds["photons"], strict=True)

@@ -5,14 +5,12 @@ from html import escape
 
 from PIL import Image
 
-from course.engine.functions.modules import FURTHER, MODULES, TAUGHT
+from course.engine.functions.modules import FURTHER, MODULES, TAUGHT, WARM_UP
 from sitebuild import pictures, webp
 from sitebuild.objectives import title
 from sitebuild.place import Place
 from sitebuild.shots import tag
 from sitebuild.teaching_file import DOCS, minutes, teaching
-
-WARM_UP = "sampling"
 
 WIDTH = 480
 """Pixels across: two for each that a card shows."""

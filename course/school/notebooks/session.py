@@ -36,15 +36,19 @@ class RunCell:
     text: str
     failed: bool = False
 
-    @cached_property
+    @property
     def names(self) -> frozenset[str]:
         """All that it defines or imports."""
-        return _scopes(self.text)[0]
+        return self._scopes[0]
 
-    @cached_property
+    @property
     def reads(self) -> frozenset[str]:
         """All names that it uses."""
-        return _scopes(self.text)[1]
+        return self._scopes[1]
+
+    @cached_property
+    def _scopes(self) -> tuple[frozenset[str], frozenset[str]]:
+        return _scopes(self.text)
 
     def again(self, before: "RunCell") -> bool:
         """Whether it is that cell, run once more: where the notebook doesn't say, if it binds what the other did."""
@@ -115,10 +119,10 @@ class Session:
         # Before or after this event, as its version has it, IPython counts; what it keeps of a cell comes later in all.
         self.number = len(self._shell.history_manager.input_hist_raw)
         cell = RunCell(self.number, getattr(info, "cell_id", None), info.raw_cell)
-        same = [at for at, one in enumerate(self.cells) if cell.again(one)]
-        others = [one for one in self.cells if not cell.again(one)]
+        same = [cell.again(one) for one in self.cells]
+        others = [one for one, again in zip(self.cells, same, strict=True) if not again]
         # It stays where others find its names when they are run, unless these bind what it binds or uses.
-        place = same[0] if same else len(others)
+        place = same.index(True) if any(same) else len(others)
         if any((cell.names | cell.reads) & one.names for one in others[place:]):
             place = len(others)
         self.cells = [*others[:place], cell, *others[place:]]

@@ -16,6 +16,7 @@ import numpy as np
 
 from course.base.errors import CourseWarning
 from course.engine.core.types import Floats64, Media
+from course.engine.formats.meshes.parts import same
 from course.engine.formats.yaml.description import MaterialDescription, SceneDescription
 from course.engine.formats.yaml.document import Document
 
@@ -105,8 +106,8 @@ def warn_of_nested(
 
 def _touch(first: Mesh, second: Mesh) -> bool:
     """Whether two meshes have a vertex at one place."""
-    places = {place.tobytes() for place in first.vertices + 0.0}
-    return any(place.tobytes() in places for place in second.vertices + 0.0)
+    _, place = same(*np.concatenate((first.vertices, second.vertices)).T)
+    return bool(np.isin(place[len(first.vertices) :], place[: len(first.vertices)]).any())
 
 
 _ASKEW = np.array([0.5431, 0.6173, 0.5692])

@@ -1,7 +1,7 @@
 """Meshes of glass that enclose nothing: where one says no inside and outside, light is bent and absorbed wrongly."""
 
 import warnings
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
@@ -29,15 +29,20 @@ def warn_of_glass(loaded: Loaded, meshes: Sequence[Mesh]) -> None:
         for number, thing in enumerate(scene.objects)
         if isinstance(thing, d.MeshFile) and scene.materials[thing.material].dielectric is not None
     ]
-    for number in clear:
-        thing = scene.objects[number]
+    troubles = {number: wrong_inside(meshes[number]) for number in clear}
+    if not any(troubles.values()):
+        return
+    rims = {number: _rim(meshes[number]) for number in clear}
+    at = defaultdict[bytes, list[int]](list)
+    for number, rim in rims.items():
+        for edge in rim:
+            at[edge].append(number)
+    for number, trouble in troubles.items():
+        thing, rim = scene.objects[number], rims[number]
         assert isinstance(thing, d.MeshFile)
-        others = [
-            (meshes[other], 2 if scene.objects[other].material == thing.material else 1)
-            for other in clear
-            if other != number and scene.objects[other].motion == thing.motion
-        ]
-        if trouble := wrong_inside(meshes[number], others):
+        others = [[scene.objects[other] for other in at[edge] if other != number] for edge in rim]
+        closed = bool(rim) and all(sum(_closing(o, thing) for o in each) >= 2 for each in others)
+        if trouble and not closed:
             warnings.warn(
                 f"{loaded.document.where(('objects', number))}: {thing.file} is of glass, {thing.material}, but"
                 f" {trouble}",
@@ -46,11 +51,15 @@ def warn_of_glass(loaded: Loaded, meshes: Sequence[Mesh]) -> None:
             )
 
 
-def wrong_inside(mesh: Mesh, others: Sequence[tuple[Mesh, int]] = ()) -> str | None:
-    """What keeps a mesh from enclosing glass, and what helps; None where nothing does, or ``others`` close it.
+def _closing(other: d.Object, thing: d.Object) -> int:
+    """What another object, open at the same edge, counts: from 2 on they close a thing there."""
+    if other.motion != thing.motion:
+        return 0
+    return 2 if other.material == thing.material else 1
 
-    ``others``: with a number each. Those that are open at one edge close it where their numbers' sum is 2.
-    """
+
+def wrong_inside(mesh: Mesh) -> str | None:
+    """What keeps a mesh from enclosing glass, and what helps; None where nothing does."""
     used = mesh.vertices[mesh.triangles.ravel()]
     if np.linalg.matrix_rank(used - used[0], tol=1e-6 * np.ptp(used)) < 3:
         # One flat side is where glass begins, and all behind it is glass.
@@ -59,9 +68,6 @@ def wrong_inside(mesh: Mesh, others: Sequence[tuple[Mesh, int]] = ()) -> str | N
     start, end, _ = _edges(corners)
     edge, uses = _uses(corners)
     if is_open := int(np.count_nonzero(uses % 2)):
-        closing = sum((Counter(dict.fromkeys(_rim(m), n)) for m, n in others), Counter[bytes]())
-        if all(closing[edge] >= 2 for edge in _rim(mesh)):
-            return None
         return f"it is open at {is_open:,} edges: it has no inside; close it"
     ahead = np.bincount(edge, weights=np.where(start < end, 1, -1))
     if turned := int(np.count_nonzero(ahead)):
