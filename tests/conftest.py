@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, settings
 from numpy.typing import NDArray
 
 from course import Scene, load_scene
@@ -31,6 +32,10 @@ PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 
 # What a test renders must not depend on those before it: loops are compiled where a test asks for them.
 os.environ.setdefault("COURSE_NO_COMPILER", "1")
+
+# How long it takes to make an example, or to try it, decides no test; `make stress` asks for another profile.
+settings.register_profile("usual", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("usual")
 
 # A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
