@@ -4,12 +4,13 @@ import numpy as np
 
 from course.engine.core.rays import Draws
 from course.engine.core.samplers import Block, Sampler
-from course.engine.core.types import Floats32, Indices
+from course.engine.core.types import Floats32, Indices, Words
+from course.engine.terms.samplers.sobol import BITS, DIRECTIONS, owen_scrambled
 
 PHOTONS = 0x70686F74
 """Keeps the generators of photons apart from those of paths with the same seed."""
 
-_TO_UNIT = 2.0**-24
+_TO_UNIT = np.float32(2.0**-24)
 
 
 class PhotonSampler(Sampler):
@@ -40,18 +41,53 @@ def seed_of(draws: Draws) -> int:
 
 
 def spread(seed: int, number: int, first: int, n: int, width: int) -> Floats32:
-    """Numbers (width, n) of photons from ``first`` on: Kronecker's sequence, shifted at random for each pass.
+    """Numbers (width, n) of photons from ``first`` on: Sobol's sequence, scrambled anew for each pass.
 
-    M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+    The net is even in all dimensions together. A lattice is, too, but where few of its directions count, such as a
+    photon's time and its way, its rows show as stripes.
     """
-    # The root of x^(width + 1) = x + 1, by iteration.
-    root = 2.0
-    for _ in range(60):
-        root = (1 + root) ** (1 / (width + 1))
-    steps = np.array([int(2**64 / root ** (k + 1)) for k in range(width)], np.uint64)
     rng = np.random.default_rng((PHOTONS, seed, number))
-    shift = rng.integers(0, 2**64, width, np.uint64)
-    index = np.arange(first, first + n, dtype=np.uint64)
-    words = shift[:, None] + steps[:, None] * index
-    u: Floats32 = ((words >> np.uint64(40)) * _TO_UNIT).astype(np.float32)
+    seeds = rng.integers(0, 2**32, (width, 1), np.uint32)
+    words = owen_scrambled(sobol_words(first, n, width), seeds)
+    u: Floats32 = ((words >> np.uint32(8)) * _TO_UNIT).astype(np.float32)
     return u
+
+
+def sobol_words(first: int, n: int, width: int) -> Words:
+    """Points (width, n) uint32 of the sequence from ``first`` on, as 32-bit fractions; up to 7 dimensions."""
+    words = np.zeros((width, 1), np.uint32)
+    for k in range((first + n - 1).bit_length()):
+        words = np.concatenate((words, words ^ _DIRECTIONS[:width, k, None]), axis=1)
+    return words[:, first : first + n]
+
+
+def _directions(polynomial: int, first: tuple[int, ...]) -> list[int]:
+    """Direction numbers of a dimension, left-aligned: by the recurrence of a primitive polynomial over GF(2)."""
+    degree = len(first)
+    numbers = list(first)
+    for k in range(degree, BITS):
+        m = numbers[k - degree] << degree ^ numbers[k - degree]
+        for i in range(1, degree):
+            m ^= (polynomial >> (degree - i) & 1) * numbers[k - i] << i
+        numbers.append(m)
+    return [m << (BITS - 1 - k) for k, m in enumerate(numbers)]
+
+
+_DIRECTIONS = np.array(
+    [
+        DIRECTIONS[0],
+        *(
+            _directions(polynomial, first)
+            for polynomial, first in (
+                (0b11, (1,)),
+                (0b111, (1, 3)),
+                (0b1011, (1, 3, 1)),
+                (0b1101, (1, 1, 1)),
+                (0b10011, (1, 1, 3, 3)),
+                (0b11001, (1, 3, 5, 13)),
+            )
+        ),
+    ],
+    np.uint32,
+)
+"""Of 7 dimensions. S. Joe, F. Kuo, "Constructing Sobol sequences with better two-dimensional projections", 2008."""
