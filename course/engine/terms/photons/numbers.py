@@ -1,5 +1,7 @@
 """Random numbers of photons: each pass has its own, and in a pass they are spread evenly."""
 
+from functools import cache
+
 import numpy as np
 
 from course.engine.core.rays import Draws
@@ -55,10 +57,33 @@ def spread(seed: int, number: int, first: int, n: int, width: int) -> Floats32:
 
 def sobol_words(first: int, n: int, width: int) -> Words:
     """Points (width, n) uint32 of the sequence from ``first`` on, as 32-bit fractions; up to 7 dimensions."""
-    words = np.zeros((width, 1), np.uint32)
-    for k in range((first + n - 1).bit_length()):
-        words = np.concatenate((words, words ^ _DIRECTIONS[:width, k, None]), axis=1)
-    return words[:, first : first + n]
+    parts = []
+    while n > 0:
+        # A point is the exclusive-or of those at the high and at the low bits of its index.
+        low = first % _TABLE
+        part = _first_words()[:width, low : low + n]
+        parts.append(part ^ _word(first - low)[:width, None])
+        n, first = n - part.shape[1], first + part.shape[1]
+    return np.concatenate(parts, axis=1) if parts else np.zeros((width, 0), np.uint32)
+
+
+_TABLE = 1 << 16
+
+
+@cache
+def _first_words() -> Words:
+    """The first points, (7, _TABLE)."""
+    words = np.zeros((len(_DIRECTIONS), 1), np.uint32)
+    for k in range(_TABLE.bit_length() - 1):
+        words = np.concatenate((words, words ^ _DIRECTIONS[:, k, None]), axis=1)
+    return words
+
+
+def _word(index: int) -> Words:
+    """One point, (7,)."""
+    bits = [k for k in range(index.bit_length()) if index >> k & 1]
+    word: Words = np.bitwise_xor.reduce(_DIRECTIONS[:, bits], axis=1)
+    return word
 
 
 def _directions(polynomial: int, first: tuple[int, ...]) -> list[int]:
