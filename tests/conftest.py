@@ -22,6 +22,7 @@ from course.engine.render.threads import default_threads
 from tests.browser import browser
 from tests.compiling import alone, take_turns
 from tests.forms import FORMS
+from tests.lengths import LONG, without_combinations
 from tests.once import Once, made_once, shared_folder
 
 __all__ = ["browser"]
@@ -57,6 +58,18 @@ def pytest_collection() -> Generator[None, object, object]:
         # They stay to the end, and are looked through no more.
         gc.freeze()
         gc.enable()
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Say what marks mean."""
+    config.addinivalue_line("markers", "each_value: see tests/lengths.py")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Leave out what only the long run tries. What alone was asked for is tried: it has what no other has."""
+    if not LONG:
+        items[:] = without_combinations(items)
 
 
 @pytest.fixture(scope="session")

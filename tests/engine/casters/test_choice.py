@@ -1,8 +1,6 @@
 """Which caster a process has, and that pictures are the same whichever it is."""
 
 import json
-import os
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -31,19 +29,39 @@ RENDER = """
 import json
 import numpy as np
 from course import load_scene, render
-path, compiled, file = sys.argv[2:]
-picture = render(load_scene(path), spp=4, size=(90, 60), threads=1, compiled=json.loads(compiled))
-np.save(file, picture.linear)
-print(json.dumps(picture.receipt.to_dict()))
+folder, scenes = sys.argv[2:]
+rendered = {}
+for name in scenes.split(","):
+    scene = load_scene(f"scenes/{name}.yaml")
+    rendered[name] = receipts = []
+    for compiled in (False, True) if "numba" not in sys.argv[1].split(",") else (False,):
+        picture = render(scene, spp=4, size=(60, 40), sampler="sobol", threads=1, compiled=compiled)
+        np.save(f"{folder}/{name}-{compiled}.npy", picture.linear)
+        receipts.append(picture.receipt.to_dict())
+print(json.dumps(rendered))
 """
+SCENES = ("soft_shadows", "glossy", "motion_blur", "path_tracing")
+"""Among them one with movers, whose packets have several hierarchies."""
 
 
-def rendered(folder: Path, hidden: str, scene: str, compiled: bool, **environment: str) -> Any:
-    """The picture (H, W, 3) and the receipt of a process that doesn't find some libraries."""
-    file = folder / "picture.npy"
-    arguments = hidden, f"scenes/{scene}.yaml", json.dumps(compiled), file
-    done = python("-c", HIDE + RENDER, *arguments, environment=os.environ | environment)
-    return np.load(file), json.loads(done.stdout)
+def seen(scene: str) -> Any:
+    """The picture (H, W, 3) with Embree."""
+    mine = render(load_scene(ROOT / f"scenes/{scene}.yaml"), spp=4, size=(60, 40), threads=1)
+    assert mine.receipt.caster == "embree"
+    return mine.linear
+
+
+def rendered(folder: Path, hidden: str, *scenes: str) -> dict[str, list[Any]]:
+    """Receipts of a process that doesn't find some libraries, by scene, in each form that it has; pictures in files."""
+    done = python("-c", HIDE + RENDER, hidden, folder, ",".join(scenes))
+    return dict(json.loads(done.stdout))
+
+
+def assert_alike(picture: Any, expected: Any) -> None:
+    # A ray that grazes an edge may go the other way; all others differ by the rounding of where they begin.
+    differs = np.abs(picture - expected).max(axis=2) > 1e-3 * expected.max()
+    assert differs.mean() < 0.01
+    assert abs(picture.mean() / expected.mean() - 1) < 1e-3
 
 
 @pytest.fixture
@@ -88,34 +106,27 @@ def test_a_caster_that_is_unknown_or_missing_is_told_with_the_remedy(
         choice.chosen()
 
 
-# Both forms, and among the scenes one with movers, whose packets have several hierarchies.
-@pytest.mark.parametrize(
-    ("hidden", "scene", "compiled", "caster"),
-    [
-        ("embreex,numba", "soft_shadows", False, "numpy"),
-        ("embreex,numba", "motion_blur", False, "numpy"),
-        pytest.param("embreex", "soft_shadows", False, "numba", marks=needs_numba),
-        pytest.param("embreex", "glossy", True, "numba", marks=needs_numba),
-        pytest.param("embreex", "motion_blur", True, "numba", marks=needs_numba),
-        pytest.param("embreex", "path_tracing", True, "numba", marks=needs_numba),
-    ],
-)
-def test_without_embreex_the_picture_is_the_same(
-    tmp_path: Path,
-    compiled_in_turns: Compiling,
-    hidden: str,
-    scene: str,
-    compiled: bool,
-    caster: str,
+def test_without_embreex_and_numba_the_picture_is_the_same(tmp_path: Path) -> None:
+    for scene, (receipt,) in rendered(tmp_path, "embreex,numba", *SCENES[::2]).items():
+        assert receipt["caster"] == "numpy"
+        assert receipt["embree_seconds"] > 0
+        assert_alike(np.load(tmp_path / f"{scene}-False.npy"), seen(scene))
+
+
+@needs_numba
+def test_without_embreex_the_picture_is_the_same_and_packets_of_16_rays_make_that_of_single_ones(
+    tmp_path: Path, compiled_in_turns: Compiling
 ) -> None:
-    with compiled_in_turns() if caster == "numba" else nullcontext():
-        picture, receipt = rendered(tmp_path, hidden, scene, compiled)
-    assert receipt["caster"] == caster
-    assert receipt["embree_seconds"] > 0
-    mine = render(load_scene(ROOT / f"scenes/{scene}.yaml"), spp=4, size=(90, 60), threads=1)
-    assert mine.receipt.caster == "embree"
-    expected = mine.linear
-    # A ray that grazes an edge may go the other way; all others differ by the rounding of where they begin.
-    differs = np.abs(picture - expected).max(axis=2) > 1e-3 * expected.max()
-    assert differs.mean() < 0.01
-    assert abs(picture.mean() / expected.mean() - 1) < 1e-3
+    with compiled_in_turns():
+        found = rendered(tmp_path, "embreex", *SCENES)
+    for scene, receipts in found.items():
+        single, packets = receipts
+        for receipt in receipts:
+            assert receipt["caster"] == "numba"
+            assert receipt["embree_seconds"] > 0
+        assert packets["rays"] == single["rays"]
+        alone, together = (
+            np.load(tmp_path / f"{scene}-{compiled}.npy") for compiled in (False, True)
+        )
+        assert np.array_equal(alone, together)
+        assert_alike(together, seen(scene))

@@ -1,7 +1,7 @@
 """Packets of 4, 8 and 16 rays make the same picture; each width that isn't this process's in one of its own.
 
-To compile the loops takes a minute. So the widest is tried here, which Embree's stand-in has compiled too; `make
-stress` tries all of them.
+To compile the loops takes a minute, so `make stress` tries them. Embree's stand-in takes packets of 16 always, and
+test_choice.py has its loop make the picture of its single rays.
 """
 
 import os
@@ -15,7 +15,7 @@ from course.engine.functions.effects import PROJECT
 from course.engine.loops import library
 from course.engine.loops.library import NATIVE, WIDTH_VARIABLE
 from tests.conftest import Compiling
-from tests.lengths import share
+from tests.lengths import LONG
 from tests.processes import python
 
 if not library.available() or library.library() is None:
@@ -36,10 +36,8 @@ print(library.width(), sha256(picture.linear.tobytes()).hexdigest(), shadows, sp
 """
 
 
-OTHERS = sorted({*NATIVE} - {library.width()}, reverse=True)
-
-
-@pytest.mark.parametrize("width", share(OTHERS, len(OTHERS)))
+@pytest.mark.skipif(not LONG, reason="takes minutes: make stress")
+@pytest.mark.parametrize("width", sorted({*NATIVE} - {library.width()}))
 def test_every_width_makes_the_picture_of_single_rays(
     width: int, compiled_in_turns: Compiling
 ) -> None:

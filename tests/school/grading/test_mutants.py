@@ -1,8 +1,9 @@
 """The grader's own test: wrong submissions fail where they should, right ones nowhere.
 
 In this process and without the checks that take many pictures, a wrong one by few checks. Of wrong ones that are meant
-for the same check the first is tried: each check is seen to fail. `make mutants` runs all checks on all submissions, in
-workers.
+for the same check the first is tried: each check is seen to fail. Of modules whose checks take seconds one of each kind
+of check is, and of right ones beside the first of a module a share; `make stress` tries them all. `make mutants` runs
+all checks on all submissions, in workers.
 """
 
 from collections.abc import Callable
@@ -19,24 +20,39 @@ from course.school.grading.checks.check import Check, References
 from course.school.grading.checks.result import Result, Status
 from course.school.grading.known import KnownSubmission, known
 from course.school.grading.references import reference
+from tests.lengths import LONG, share
 
 ALL = [submission for module in COURSE for submission in known(module)]
-
-FIRST = {(one.module, one.function, one.caught_by): one for one in reversed(ALL) if not one.right}
-TRIED = [one for one in ALL if one.right] + [*reversed(FIRST.values())]
-
 
 SLOW = ("columns", "loops")
 """Right submissions that take rays one by one: only the first properties of each function are asked of them."""
 
-DEAR = ("bounding_volumes", "many_lights")
-"""Modules whose properties take seconds: so few of them are asked of all but one of their right submissions."""
+DEAR = ("bounding_volumes", "denoising", "many_lights", "media")
+"""Modules whose properties take seconds: so few of them are asked of right submissions."""
 
 FEW = 2
 
 SEEN = {one.module: one.name for one in ALL if one.right and one.name not in SLOW}
 """A right submission of each module of which pictures are taken and distributions drawn, too. Others return the same
 values to the last digits, so these tell no more of them; of those that take rays one by one they take a minute."""
+
+KINDS = {
+    (module, check.function, check.name): check.kind
+    for module in COURSE
+    for check in module_checks(module).checks
+}
+
+
+def meant_for(one: KnownSubmission) -> tuple[str, str, str]:
+    """What one of the wrong submissions that are alike in it is tried for: a check, or a kind of checks."""
+    check = one.module, one.function, one.caught_by
+    return (*check[:2], KINDS[check]) if one.module in DEAR and not LONG else check
+
+
+FIRST = {meant_for(one): one for one in reversed(ALL) if not one.right}
+RIGHT = [one for one in ALL if one.right and one.name == SEEN[one.module]]
+RIGHT += share([one for one in ALL if one.right and one not in RIGHT], 4)
+TRIED = [*RIGHT, *reversed(FIRST.values())]
 
 
 def quick(check: Check) -> bool:
@@ -58,14 +74,14 @@ def concerned(submission: KnownSubmission) -> Callable[[Check], bool]:
 
     Some mistakes are made from the second call on.
     """
-    if submission.right and submission.name == SEEN[submission.module]:
-        return quick
     if submission.right:
-        slow = submission.name in SLOW or submission.module in DEAR
-        few = first_properties(submission.module) if slow else None
+        seen = submission.name == SEEN[submission.module]
+        dear = submission.module in DEAR and not (seen and LONG)
+        few = first_properties(submission.module) if submission.name in SLOW or dear else None
         return lambda check: (
             check.kind == "contract"
             or (check.kind == "property" and (few is None or (check.function, check.name) in few))
+            or (check.kind != "property" and seen and quick(check))
         )
     names = "contract", submission.caught_by
     return lambda check: check.function == submission.function and check.name in names
