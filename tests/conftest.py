@@ -62,7 +62,7 @@ def pytest_collection() -> Generator[None, object, object]:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Say what marks mean."""
-    config.addinivalue_line("markers", "each_value: see tests/lengths.py")
+    config.addinivalue_line("markers", "fewer: see tests/lengths.py")
 
 
 @pytest.hookimpl(trylast=True)

@@ -12,6 +12,7 @@ from benchmarks import importance_sampling, quasi_monte_carlo, sampling
 from benchmarks.__main__ import MEASURES
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.plots import STYLE, draw, write, write_plots
+from tests.lengths import fewer
 
 pytest.importorskip("matplotlib")
 
@@ -122,6 +123,7 @@ def test_an_integral_has_the_value_that_it_is_said_to_have(
     assert value == pytest.approx(integral.value, rel=0.02 if integral.dims == 6 else 1e-3)
 
 
+@fewer
 @pytest.mark.parametrize("dims", [2, 6])
 @pytest.mark.parametrize("name", quasi_monte_carlo.SETS)
 def test_point_sets_are_uniform_over_the_seeds(name: str, dims: int) -> None:

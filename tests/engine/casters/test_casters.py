@@ -13,6 +13,7 @@ from course.engine import shapes
 from course.engine.casters.batches import RAYS, BatchCaster
 from course.engine.core.accelerator import NO_HIT, Caster, Intersections
 from tests.forms import needs_numba
+from tests.lengths import fewer
 
 Array = NDArray[np.float32]
 Mesh = tuple[Array, NDArray[np.int32]]
@@ -203,6 +204,7 @@ def test_hits_are_those_of_embree(make: Make, mesh: Callable[[], Mesh]) -> None:
         np.testing.assert_allclose(a, b, rtol=tolerance, atol=tolerance)
 
 
+@fewer
 @of_each
 @of_meshes
 @pytest.mark.parametrize("limit", [0.3, 1.0])

@@ -16,6 +16,7 @@ from course.engine.comparing.pair import FLOAT_STEP, HALF_STEP
 from course.engine.comparing.significance import SPOT, Comparison, compare
 from course.engine.comparing.windows import Grid, Window
 from course.engine.formats.pictures.display import linear_to_srgb8, srgb_to_linear
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 Noise = Callable[[np.random.Generator], Array]
@@ -130,6 +131,7 @@ def test_a_converged_wall_is_within_half_a_code_of_a_noisy_one(level: float) -> 
     assert found.p_value > 1e-3
 
 
+@fewer
 @pytest.mark.parametrize("coded", [False, True])
 @pytest.mark.parametrize("noise", [even, heavy, shared])
 def test_a_hundredth_of_brightness_is_seen(noise: Noise, coded: bool) -> None:

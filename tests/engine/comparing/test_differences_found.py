@@ -14,6 +14,7 @@ from scipy.ndimage import gaussian_filter
 from course.engine.comparing.seen import seen
 from course.engine.comparing.significance import SIGNIFICANCE, Comparison, compare
 from course.engine.comparing.windows import Window
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 HEIGHT, WIDTH, SEEDS = 96, 128, 20
@@ -51,6 +52,7 @@ def root_mean_square(values: Array) -> float:
     return float(np.sqrt((values**2).mean()))
 
 
+@fewer
 @TRUTHS
 @pytest.mark.parametrize(
     ("across", "down", "words"),
@@ -143,6 +145,7 @@ def square(side: int, sigmas: float, channels: slice = slice(None)) -> Change:
     return change
 
 
+@fewer
 @TRUTHS
 @pytest.mark.parametrize(
     "change",

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 SIZE = 24
@@ -131,6 +132,7 @@ def test_random_points_are_binomial(make_scene: MakeScene) -> None:
     assert abs(z.sum()) < 5 * math.sqrt(z.size)
 
 
+@fewer
 @pytest.mark.parametrize("sampler", ["sobol", "random", "jittered", "regular"])
 @pytest.mark.parametrize("sigma", [1 / 6, 0.4])
 def test_a_gaussian_filter_shows_the_truncated_normal_distribution_across_an_edge(

@@ -14,6 +14,7 @@ from course.engine.core.samplers import Block
 from course.engine.render.binding import bind
 from tests.conftest import MakeScene, PixelRays
 from tests.estimates import fresnel
+from tests.lengths import fewer
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
@@ -181,6 +182,7 @@ CONVEX = [
 ]  # fmt: skip
 
 
+@fewer
 @pytest.mark.parametrize("thing", CONVEX)
 @pytest.mark.parametrize("index", [1.0, 1.5, 1 / 1.5])
 def test_clear_glass_in_a_white_furnace_cannot_be_seen(

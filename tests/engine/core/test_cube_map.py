@@ -17,6 +17,7 @@ from tests.conftest import MakeScene, PixelRays
 from tests.engine.formats.pictures import picture_files
 from tests.engine.terms.environments.skies import TABLE, cube_directions
 from tests.estimates import estimate
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 
@@ -194,6 +195,7 @@ def test_the_mean_of_six_pictures_is_the_mean_over_uniform_directions(
         assert np.abs(faces.mean(axis=(0, 1, 2)) - mean).max() > 5 * error.max()
 
 
+@fewer
 @lookups
 @pytest.mark.parametrize("normal", [[0, 1, 0], [0, 0, -1]])
 def test_a_plane_is_lit_by_the_solid_angles_of_the_texels_above_it(

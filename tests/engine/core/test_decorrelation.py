@@ -20,6 +20,7 @@ from course.engine.functions.effects import Effects
 from course.engine.terms.samplers import FUNCTIONS, make_sampler
 from tests.conftest import MakeScene
 from tests.drawn import numbers_drawn, rows
+from tests.lengths import fewer
 
 PIXELS = 512
 LOCKED = 2.0
@@ -86,6 +87,7 @@ def measures(
     return (r * r).mean(axis=1) * (samples - 1), r.mean(axis=1)
 
 
+@fewer
 @pytest.mark.parametrize("samples", [16, 64])
 @pytest.mark.parametrize(
     "name", ["sobol", "jittered", "random", "chained", "xorshift", "blue_noise"]
@@ -97,6 +99,7 @@ def test_no_two_dimensions_of_a_path_go_together_within_a_pixel(
     assert measure.max() < LOCKED, f"{(measure >= LOCKED).sum()} of {len(measure)} pairs"
 
 
+@fewer
 @pytest.mark.parametrize("samples", [16, 64])
 @pytest.mark.parametrize(
     "name", ["sobol", "jittered", "random", "chained", "xorshift", "blue_noise"]

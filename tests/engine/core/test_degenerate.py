@@ -16,6 +16,7 @@ from course.engine.core.rays import Draws, Rays
 from course.engine.core.samplers import Block
 from course.engine.render.binding import bind
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 BALL = {"shape": "sphere", "material": "grey", "radius": 0.6, "segments": 32} | {
     "transform": [{"translate": [-0.6, 0.7, 0]}]
@@ -56,6 +57,7 @@ def same(a: Scene, b: Scene, **options: Any) -> None:
     assert one.receipt.numbers == other.receipt.numbers
 
 
+@fewer
 @pytest.mark.parametrize("sampler", ["sobol", "random", "jittered", "regular"])
 @pytest.mark.parametrize("shape", ["disk", "square", "polygon"])
 def test_an_aperture_of_0_is_the_pinhole(room: MakeScene, shape: str, sampler: str) -> None:

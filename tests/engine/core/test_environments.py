@@ -30,6 +30,7 @@ from tests.engine.terms.environments.skies import (
     unfolded,
 )
 from tests.estimates import estimate, fresnel
+from tests.lengths import fewer
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
@@ -67,6 +68,7 @@ def test_an_unfolded_cube_has_no_seams_in_it() -> None:
             assert jump[both].max() < 2 / size
 
 
+@fewer
 @kinds
 @pytest.mark.parametrize("lookup", ["seamless", "clamped"])
 def test_the_camera_sees_the_sky_in_every_direction(
@@ -85,6 +87,7 @@ def test_the_camera_sees_the_sky_in_every_direction(
         assert_sees(render(scene).linear, direction, gradient, 64, kind)
 
 
+@fewer
 @kinds
 @pytest.mark.parametrize("axis", AXES, ids=["+x", "-x", "+y", "-y", "+z", "-z"])
 def test_each_main_direction_has_its_own_colour(
@@ -162,6 +165,7 @@ def rotated(vector: Any, axis: Any, degrees: float) -> Array:
     return np.asarray(v * c + np.cross(k, v) * s + k * (k @ v) * (1 - c))
 
 
+@fewer
 @kinds
 @pytest.mark.parametrize("above", [True, False])
 def test_a_surface_of_glass_sees_the_sky_in_refracted_and_mirrored_directions(
@@ -192,6 +196,7 @@ def test_a_surface_of_glass_sees_the_sky_in_refracted_and_mirrored_directions(
     assert np.median(off) < 3 / 64**2
 
 
+@fewer
 @kinds
 @pytest.mark.parametrize("degrees", [0, 25])
 def test_a_glossy_mirror_sees_the_mean_over_its_lobe(
@@ -267,6 +272,7 @@ def test_no_sampler_changes_the_mean(make_scene: MakeScene, tmp_path: Path, samp
     assert (np.abs(mean - (1 + 2 / 3 * NORMALS[7])) < tolerance + 1e-3).all()
 
 
+@fewer
 @pytest.mark.parametrize(
     ("kind", "normal"),
     [("faces", normal) for normal in NORMALS]
@@ -290,6 +296,7 @@ def test_the_side_that_is_seen_is_lit(make_scene: MakeScene, tmp_path: Path) -> 
     assert (np.abs(mean - (1 - 2 / 3 * NORMALS[7])) < tolerance + 1e-3).all()
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["horizontal", "lat_long"])
 @pytest.mark.parametrize("degrees", [0, 30, 60, 90, 120, 180])
 def test_a_half_bright_sky_lights_by_its_angle_to_the_plane(
@@ -310,6 +317,7 @@ def test_a_half_bright_sky_lights_by_its_angle_to_the_plane(
     assert tolerance.max() < 0.05
 
 
+@fewer
 @pytest.mark.parametrize("normal", NORMALS, ids=str)
 def test_a_sky_of_one_bright_face_lights_by_its_form_factor(
     make_scene: MakeScene, tmp_path: Path, normal: Array
@@ -417,6 +425,7 @@ def wall(make_scene: MakeScene, sky: dict[str, Any], material: dict[str, Any]) -
     )
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["constant", *KINDS])
 def test_an_environment_that_lights_nothing_casts_no_ray(
     make_scene: MakeScene, tmp_path: Path, kind: str

@@ -18,6 +18,7 @@ from course.engine.core.samplers import Block
 from course.engine.terms.samplers import make_sampler
 from tests.conftest import MakeScene
 from tests.estimates import estimate
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 
@@ -144,6 +145,7 @@ def test_a_lobe_puts_its_share_into_each_cone_about_the_mirrored_direction(
     assert least - tolerance <= mean <= exact + tolerance
 
 
+@fewer
 @pytest.mark.parametrize(
     "lobe",
     [
@@ -173,6 +175,7 @@ def test_a_lobe_is_balanced_about_the_mirrored_direction(
     assert abs(mean - 0.5) <= tolerance + 1e-3
 
 
+@fewer
 @pytest.mark.parametrize(
     "lobe",
     [

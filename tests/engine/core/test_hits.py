@@ -16,6 +16,7 @@ from course.engine.formats.meshes import transforms
 from course.engine.shapes.mesh import Mesh
 from course.engine.terms.surfaces.surface import FullPart, FullSurface, build_surface
 from tests.conftest import MakeScene, PixelRays
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 ULP = 2.0**-23
@@ -260,6 +261,7 @@ LIGHTS = [
 ]
 
 
+@fewer
 @pytest.mark.parametrize("segments", [8, 16, 32, 64])
 @pytest.mark.parametrize("towards", LIGHTS)
 @pytest.mark.parametrize("kind", ["directional", "point"])
@@ -311,6 +313,7 @@ def test_without_the_bulge_a_coarse_ball_has_teeth(
     assert (found[lit] == 0).any(), "the test above would notice"
 
 
+@fewer
 @pytest.mark.parametrize("segments", [8, 16, 32, 64])
 @pytest.mark.parametrize("height", [0.99, 0.9, 0.5])
 def test_the_bulge_leaks_no_light_through_a_wall(

@@ -15,6 +15,7 @@ from course import Scene, render
 from tests import estimates
 from tests.conftest import MakeScene, PixelRays
 from tests.engine.terms.environments import skies
+from tests.lengths import fewer
 
 # Both forms where a light is half hidden and where it is a grid: tests/transport/test_shadow_kernels.py holds compiled
 # loops to the same bits for the points of every kind of light.
@@ -79,6 +80,7 @@ def test_the_penumbra_of_a_half_plane_before_a_rectangle_by_radiance(
     assert tolerance < 0.02 * whole, "the estimate is worth something"
 
 
+@fewer
 @pytest.mark.parametrize("samples", ["point", "grid 12"])
 @pytest.mark.parametrize("x", ACROSS)
 def test_the_penumbra_of_a_half_plane_before_a_rectangle_by_intensity(
@@ -148,6 +150,7 @@ RECTANGLES = pytest.mark.parametrize(
 )
 
 
+@fewer
 @pytest.mark.parametrize("samples", ["point", "grid 40"])
 @RECTANGLES
 def test_an_unoccluded_rectangle_by_radiance_is_lamberts_polygon(
@@ -182,6 +185,7 @@ def test_an_unoccluded_rectangle_by_intensity_is_the_mean_of_its_point_lights(
     assert abs(mean - exact) <= tolerance + 2e-4 * exact
 
 
+@fewer
 @pytest.mark.parametrize(
     ("center", "radius"),
     [
@@ -260,6 +264,7 @@ def cloud(method: str, c: Array, radius: float) -> Array:
     return c + radius * shells[:, None, None, None] * sphere
 
 
+@fewer
 @pytest.mark.parametrize(
     "method",
     ["sphere", "ball", "facing disk", "sphere by polar", "ball by polar", "ball by rejection"],
@@ -277,6 +282,7 @@ def test_a_sphere_by_intensity_is_the_mean_of_its_point_lights(
     assert abs(mean - exact) <= tolerance + 1e-3 * exact
 
 
+@fewer
 @pytest.mark.parametrize("method", ["sphere", "ball", "sphere by polar", "ball by polar"])
 @pytest.mark.parametrize("x", ACROSS)
 def test_the_penumbra_of_a_half_plane_before_a_ball_is_a_cap_of_it(

@@ -20,6 +20,7 @@ from course import Scene, render
 from course.engine.render.binding import bind
 from course.engine.scene.building.cameras import compile_camera
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 SIZE = 24
@@ -106,6 +107,7 @@ def expected(depth: float, angle: float, shape: str, blades: int) -> Array:
 SHAPES = [("disk", 6), ("square", 6), ("polygon", 3), ("polygon", 5), ("polygon", 6)]
 
 
+@fewer
 @pytest.mark.parametrize("depth", DEPTHS)
 @pytest.mark.parametrize(("shape", "blades"), SHAPES)
 def test_an_edge_is_spread_by_the_aperture(

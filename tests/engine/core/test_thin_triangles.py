@@ -17,6 +17,7 @@ from course.engine.core.embree import EmbreeCaster
 from course.engine.formats.meshes import transforms
 from course.engine.shapes.mesh import Mesh
 from course.engine.terms.surfaces.surface import FullPart, build_surface
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 
@@ -87,6 +88,7 @@ def own_hits(kind: str, ratio: float, far: bool, caster: str) -> tuple[int, int]
     return again, rays
 
 
+@fewer
 @pytest.mark.parametrize("caster", CASTERS)
 @pytest.mark.parametrize("far", [False, True], ids=["in the middle", "far out"])
 @pytest.mark.parametrize("kind", ["half a plank", "needle", "cap", "slanted"])

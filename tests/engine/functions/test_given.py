@@ -10,6 +10,7 @@ import pytest
 from course import load_scene, render
 from course.base.errors import EffectError, FunctionError
 from course.engine.functions.effects import PROJECT
+from tests.lengths import fewer
 
 SCENE = PROJECT / "scenes" / "soft_shadows.yaml"
 SIZE = (30, 20)
@@ -21,6 +22,7 @@ def north(center: Any, radius: float, u: Any) -> Any:
     return np.repeat(top[:, None], u.shape[1], axis=1).astype(u.dtype)
 
 
+@fewer
 @pytest.mark.parametrize("name", ["point_on_sphere", "soft_shadows.point_on_sphere"])
 @pytest.mark.parametrize("compiled", [False, None])
 def test_a_given_function_makes_the_picture_that_its_file_makes(

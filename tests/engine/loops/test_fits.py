@@ -23,6 +23,7 @@ from course.engine.scene.scene import Scene, load_scene
 from course.engine.terms.samplers import FUNCTIONS
 from tests.conftest import MakeScene
 from tests.forms import needs_numba
+from tests.lengths import fewer
 
 SCENES = PROJECT / "scenes"
 OTHERS = [name for name in FUNCTIONS if name != "sobol"]
@@ -72,6 +73,7 @@ def test_a_part_of_an_unknown_type_does_not_fit() -> None:
     assert not fits(tracer)
 
 
+@fewer
 @needs_numba
 @pytest.mark.parametrize("sampler", OTHERS)
 @pytest.mark.parametrize("name", ["glossy", "thin_lens", "motion_blur"])

@@ -20,6 +20,7 @@ if not library.available():
 from course.engine.loops import fused_kernels
 from course.engine.loops.fits import fits
 from course.engine.render.binding import bind
+from tests.lengths import fewer
 
 SCENES = ("supersampling", "soft_shadows", "glossy", "thin_lens", "motion_blur", "cube_map")
 PATHS = ("path_tracing", "radiosity")
@@ -49,6 +50,7 @@ def assert_same(fused: Picture, batches: Picture) -> None:
     assert numbers == more
 
 
+@fewer
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("name", SCENES + PATHS)
 def test_the_loop_and_the_batches_make_the_same_picture(name: str, size: str) -> None:
@@ -140,6 +142,7 @@ PATH_PARTS: dict[str, dict[str, Any]] = {
 """What only paths have, or have otherwise."""
 
 
+@fewer
 @pytest.mark.parametrize(
     ("part", "paths"),
     [(part, False) for part in PARTS] + [(part, True) for part in PARTS | PATH_PARTS],

@@ -20,6 +20,7 @@ from course.engine.terms import work as extra_work
 from course.engine.terms.samplers import FUNCTIONS
 from course.engine.terms.work import divided_passes
 from tests.engine.conftest import EveryStage
+from tests.lengths import fewer
 
 SAMPLERS = tuple(FUNCTIONS)
 FILTERS = ("box", "gaussian")
@@ -34,6 +35,7 @@ def same(a: Picture, b: Picture) -> bool:
     return a.linear.tobytes() == b.linear.tobytes()
 
 
+@fewer
 @pytest.mark.parametrize("filter_", FILTERS)
 @pytest.mark.parametrize("sampler", SAMPLERS)
 def test_any_number_of_threads_gives_the_same_bits(
@@ -47,6 +49,7 @@ def test_any_number_of_threads_gives_the_same_bits(
     assert same(one, render(scene, sampler=sampler, spp=samples, threads=3))
 
 
+@fewer
 @pytest.mark.parametrize("sampler", ["sobol", "random"])
 @pytest.mark.parametrize("name", ["path_tracing", "mesh_light", "gallery/everything"])
 def test_so_it_does_for_paths_for_lights_of_triangles_and_for_everything(
@@ -154,6 +157,7 @@ def test_passes_enter_the_film_in_order_even_if_the_first_is_finished_last() -> 
     assert (film.samples == 48).all()
 
 
+@fewer
 @pytest.mark.parametrize("filter_", FILTERS)
 @pytest.mark.parametrize("sampler", ["sobol", "random"])
 @pytest.mark.parametrize("n", [4, 16, 24, 32])

@@ -13,6 +13,7 @@ from course.engine.terms.samplers import FUNCTIONS
 from tests.cli.stand_in import RECEIPT
 from tests.conftest import MakeScene
 from tests.engine.conftest import EveryStage
+from tests.lengths import fewer
 
 WALL = {"shape": "quad", "material": "grey", "width": 100, "depth": 100} | {
     "transform": [{"rotate": {"axis": [1, 0, 0], "degrees": 90}}]
@@ -134,6 +135,7 @@ def test_a_depth_of_zero_ends_every_path_at_its_first_hit(
     assert {"reflection", "refraction"} <= set(receipt["effects"]["skipped"])
 
 
+@fewer
 @pytest.mark.parametrize("sampler", FUNCTIONS)
 @pytest.mark.parametrize("filter_", ["box", "gaussian"])
 @pytest.mark.parametrize("samples", [1, 4])

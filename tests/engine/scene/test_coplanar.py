@@ -10,6 +10,7 @@ import pytest
 from course import Scene, render
 from course.base.errors import CourseWarning
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 RADIANCE, MIRROR, EXPONENT = 3.0, 0.8, 20
 UP = {"rotate": {"axis": [0, 0, 1], "degrees": 180}}
@@ -47,6 +48,7 @@ def expected() -> float:
     return MIRROR * RADIANCE * float((density / d**3).mean())
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 @pytest.mark.parametrize("way", ["lobe", "lamp", "balance", "power"])
 @pytest.mark.usefixtures("each_form")

@@ -18,6 +18,7 @@ import pytest
 
 from course import render
 from tests.engine.conftest import EveryStage
+from tests.lengths import fewer
 
 SIZE = 6.0
 
@@ -44,6 +45,7 @@ def test_a_scaled_scene_gives_the_same_picture(every_stage: EveryStage, k: float
     assert np.allclose(scaled, expected, rtol=1e-5, atol=1e-7)
 
 
+@fewer
 @pytest.mark.parametrize(
     "direction", [(1, 0, 0), (0, -1, 0), (0, 0, 1), (1, 1, -1), (0.123, 0.7, 0.31)]
 )

@@ -15,6 +15,7 @@ from course import render
 from course.base.errors import CourseWarning
 from course.engine.formats.meshes.transforms import rotate
 from tests.conftest import MakeScene, PixelRays
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 
@@ -105,6 +106,7 @@ LENGTHS = (0.15, 1.5, 8.0, 50.0, 100.0, 300.0, 1500.0)
 """From 1 : 1 to 1 : 10,000."""
 
 
+@fewer
 @pytest.mark.parametrize("degrees", [0.0, 33.0])
 @pytest.mark.parametrize("length", LENGTHS)
 def test_a_balls_shadow_on_a_plank(

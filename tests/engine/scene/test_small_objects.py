@@ -15,6 +15,7 @@ from course.engine.core.ray_offset import OFFSET
 from course.engine.formats.meshes.transforms import rotate
 from course.engine.render.summary import summarize
 from tests.conftest import MakeScene, PixelRays
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 
@@ -108,6 +109,7 @@ def agree(scene: Scene, compiled: bool, expected: Array) -> None:
     assert (np.abs(shown - expected) < 1e-3 * expected.max()).mean() > 0.995
 
 
+@fewer
 @pytest.mark.parametrize("degrees", [0.0, 33.0])
 @pytest.mark.parametrize("width", [1e3, *WIDTHS])
 def test_a_ball_of_1_on_a_huge_floor(

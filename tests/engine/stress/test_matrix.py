@@ -47,6 +47,7 @@ from course import render
 from course.engine.core import ray_offset
 from course.engine.loops.library import available as packets_available
 from course.engine.shapes import displaced_sphere
+from tests.lengths import fewer
 
 REJECTION = "ball by rejection"
 
@@ -273,6 +274,7 @@ def test_points_by_rejection_are_one_point_in_the_room() -> None:
     assert {each["light size"] for each in there if each.stage == "box"} > {0.1, 1.0, 30.0}
 
 
+@fewer
 @pytest.mark.parametrize("angle", ["steep", "camera 0.0001", "mirror 1e-06"])
 @pytest.mark.parametrize("resolution", ["64 x 1", "24 x 18"])
 @pytest.mark.parametrize("stage", ["room", "patch", "box"])

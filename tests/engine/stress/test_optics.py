@@ -12,6 +12,7 @@ from benchmarks.stress.running import judge_some
 from course.engine.core import scatter
 from course.engine.terms.scattering import conductors, rough_glass
 from tests.forms import in_both_forms
+from tests.lengths import fewer
 
 
 def made_of(substance: str, beyond: str = "darker") -> list[Cell]:
@@ -30,6 +31,7 @@ def failed(cells: list[Cell], compiled: bool) -> int:
     return sum(not verdict.passed for verdict in judge_some(cells, compiled))
 
 
+@fewer
 @in_both_forms
 @pytest.mark.parametrize("substance", optics.SUBSTANCES)
 def test_every_substance_is_as_physics_has_it(substance: str, compiled: bool) -> None:

@@ -14,6 +14,7 @@ from course.engine.formats.meshes.crossings import _along_a_line, _by_pairs
 from course.engine.formats.meshes.files import read_mesh
 from course.engine.formats.meshes.polygons import cut
 from course.engine.shapes.mesh import Mesh
+from tests.lengths import fewer
 
 Points = NDArray[np.float64]
 
@@ -85,6 +86,7 @@ def areas(points: Points, triangles: NDArray[np.integer]) -> Points:
     return np.asarray((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
 
 
+@fewer
 @pytest.mark.parametrize("suffix", ["obj", "ply"])
 @pytest.mark.parametrize("turned", [1, -1])
 @pytest.mark.parametrize(("points", "area"), SIMPLE.values(), ids=SIMPLE.keys())

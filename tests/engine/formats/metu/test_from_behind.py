@@ -17,6 +17,7 @@ from course.base.errors import SceneError
 from course.engine.formats.meshes.files import save_ply
 from course.engine.radiosity.accepting import check_accepted
 from course.engine.shapes.mesh import Mesh
+from tests.lengths import fewer
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
@@ -76,6 +77,7 @@ def greys(
     return grey
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 @pytest.mark.parametrize("from_behind", ["turned", "unseen"])
 def test_backs_that_are_unseen_are_looked_through_one_after_the_other(
@@ -175,6 +177,7 @@ def test_shadow_rays_and_mirrored_rays_meet_them(
     np.testing.assert_allclose(render(scene, compiled=compiled).linear, 0.75, rtol=1e-6)
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 @pytest.mark.parametrize("from_behind", ["turned", "kept"])
 def test_normals_that_are_kept_show_the_light_of_the_other_side(

@@ -11,6 +11,7 @@ from course.base.errors import SceneError
 from course.engine.formats.pictures.files import write_exr
 from course.engine.formats.yaml.description import ObjectLight, SphereLight
 from tests.engine.formats.metu.conftest import MATT, WALL, Metu, Tree, tree
+from tests.lengths import fewer
 
 NARROW = {"NearPlane": "-1e-3 1e-3 -1e-3 1e-3"}
 """A camera that sees the wall's middle only, at (0, 0, -4)."""
@@ -62,6 +63,7 @@ def test_a_spot_light_falls_off_between_half_of_its_two_angles(xml: Metu, degree
     np.testing.assert_allclose(pixel, expected, rtol=2e-3, atol=1e-6)
 
 
+@fewer
 @pytest.mark.parametrize("paths", [False, True])
 @pytest.mark.parametrize(
     ("kind", "flag"),

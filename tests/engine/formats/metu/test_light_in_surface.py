@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
+from tests.lengths import fewer
 
 MakeScene = Callable[..., Scene]
 AXIS = np.array([0.2, 1, 0.1]) / math.sqrt(1.05)
@@ -48,6 +49,7 @@ def lit_floor(
 PLACES = [(10.0, [0.1, 1.3, 0.2]), (77.0, [-0.7, 0.9, 0.4]), (203.0, [0.123, 2.1, -0.777])]
 
 
+@fewer
 @pytest.mark.parametrize("offset", [0.0, 1e-3])
 @pytest.mark.parametrize(("turn", "shift"), PLACES)
 def test_a_surface_hides_the_light_that_lies_in_it_where_shadow_rays_are_whole(

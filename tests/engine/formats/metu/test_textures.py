@@ -14,6 +14,7 @@ from course.engine.shapes.mesh import Mesh
 from course.engine.terms.surfaces.perlin import noise
 from tests.engine.formats.metu.conftest import WALL, Metu, Tree, tree
 from tests.engine.formats.pictures.picture_files import png
+from tests.lengths import fewer
 
 CODES = np.random.default_rng(7).integers(0, 256, (4, 6, 3), np.uint8)
 """A picture of 4 rows and 6 columns."""
@@ -103,6 +104,7 @@ def test_which_level_a_trilinear_picture_has_is_told(xml: Metu) -> None:
     assert "TextureMap is trilinear, and the format doesn't say which level" in warning
 
 
+@fewer
 @pytest.mark.parametrize("mode", ["replace_kd", "blend_kd", "replace_ks"])
 @pytest.mark.parametrize("of_texture", [False, True])
 @pytest.mark.parametrize("of_material", [False, True])
@@ -477,6 +479,7 @@ def test_triangles_without_places_are_refused_but_for_noise(xml: Metu) -> None:
     assert thing.material == "material 1 with texture 1"
 
 
+@fewer
 @pytest.mark.parametrize("of_base", ["", "1", "2"])
 @pytest.mark.parametrize("own_material", [False, True])
 @pytest.mark.parametrize("of_file", [False, True])

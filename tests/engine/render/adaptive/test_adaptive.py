@@ -31,6 +31,7 @@ from course.engine.render.adaptive.film import PARTS, AdaptiveFilm
 from course.engine.render.adaptive.pixel_groups import TwinGroup
 from course.engine.render.adaptive.rounds import RoundGroups, render_adaptively
 from tests.engine.render.clock import Clock
+from tests.lengths import fewer
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]
@@ -219,6 +220,7 @@ def spots(width: int, height: int, seed: int = 1) -> Array:
     return deviation
 
 
+@fewer
 @pytest.mark.parametrize(("width", "height"), [(40, 30), (300, 1), (1, 200), (1, 1)])
 @pytest.mark.parametrize("error", [0.1, 0.03, 0.01])
 def test_rounds_go_on_until_the_target_is_reached(width: int, height: int, error: float) -> None:

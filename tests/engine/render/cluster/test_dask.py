@@ -28,6 +28,7 @@ from course.engine.render.cluster.parcel import KeptScenes, WorkOrder, edition, 
 from course.engine.shapes.curved import sphere
 from tests.dask_cluster import Cluster
 from tests.engine.conftest import EveryStage
+from tests.lengths import fewer
 
 ROOT = Path(__file__).parents[4]
 
@@ -59,6 +60,7 @@ def assert_same(here: Picture, there: Picture) -> None:
     assert there.complete
 
 
+@fewer
 @pytest.mark.parametrize("filter_", ["box", "gaussian"])
 @pytest.mark.parametrize(
     ("sampler", "samples"), [("sobol", 40), ("random", 24), ("jittered", 16), ("regular", 16)]

@@ -31,6 +31,7 @@ from course.engine.terms.environments.sampling import (
 )
 from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.hemisphere import cosine_directions
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.float32]
@@ -202,6 +203,7 @@ def test_numbers_that_are_no_multiples_of_the_resolution_stay_inside() -> None:
 # ---------------------------------------------------------------- density
 
 
+@fewer
 @maps
 @normals
 def test_weights_are_cosine_over_pi_times_density(
@@ -226,6 +228,7 @@ def test_weights_are_cosine_over_pi_times_density(
     assert (np.abs(weight[inside] - exact) <= 2e-6 * np.abs(exact) + near).all()
 
 
+@fewer
 @maps
 @normals
 def test_the_density_integrates_to_one_over_the_sphere(
@@ -246,6 +249,7 @@ def test_the_density_integrates_to_one_over_the_sphere(
     assert total == pytest.approx(1, abs=1e-6)
 
 
+@fewer
 @maps
 @normals
 def test_directions_are_drawn_with_that_density(faces: Faces, normal: NDArray[np.float32]) -> None:
@@ -263,6 +267,7 @@ def test_directions_are_drawn_with_that_density(faces: Faces, normal: NDArray[np
     assert below_chi_squared(np.bincount(part, minlength=256), np.full(256, count / 256))
 
 
+@fewer
 @pytest.mark.parametrize("seamless", [True, False])
 @pytest.mark.parametrize("size", [1, 2, 3, 7, 16, 40, 300])
 def test_no_direction_with_light_has_density_zero(size: int, seamless: bool) -> None:
@@ -382,6 +387,7 @@ def by_cosine(faces: Faces, normal: NDArray[np.float32], u: NDArray[np.float32])
     return LOOKUPS[True](faces, directions).astype(float)
 
 
+@fewer
 @normals
 @pytest.mark.parametrize("faces", [waves(), waves(3), sun(32, 600)], ids=["waves", "3", "sun"])
 def test_the_mean_is_the_irradiance_over_pi(faces: Faces, normal: NDArray[np.float32]) -> None:

@@ -21,6 +21,7 @@ from course.engine.formats.pictures.files import save
 from course.engine.functions.effects import PROJECT
 from course.engine.terms.environments.hemispheres import HemisphereSampling
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 
@@ -102,6 +103,7 @@ def test_half_of_the_sky_is_hidden_by_a_lid(make_scene: MakeScene, way: str) -> 
     check_mean(estimates(floor(make_scene, sky(way), LID)), 0.5, 1e-4)
 
 
+@fewer
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("kind", ["lat_long", "cube"])
 def test_pictures_of_the_sky_are_sampled_alike(

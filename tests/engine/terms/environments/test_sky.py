@@ -22,6 +22,7 @@ from course.engine.terms.environments.sky import CosineSampling
 from course.engine.terms.scattering.hemisphere import cosine_directions
 from tests.conftest import MakeScene
 from tests.estimates import estimate
+from tests.lengths import fewer
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
@@ -96,6 +97,7 @@ def by_cosine(scene: Scene) -> Scene:
 # ---------------------------------------------------------------- with tables
 
 
+@fewer
 @pytest.mark.parametrize(
     ("degrees", "lookup"),
     [*((each, "seamless") for each in (0, 35, 70, 85, 120, 180)), (35, "clamped"), (85, "clamped")],
@@ -127,6 +129,7 @@ def test_the_sun_casts_a_shadow(spot: MakeScene, tmp_path: Path) -> None:
     assert (tolerance < 0.02 * exact).all()
 
 
+@fewer
 @pytest.mark.parametrize(
     ("degrees", "sampler"),
     [(-60, "sobol"), (20, "sobol"), (150, "sobol"), (20, "random"), (20, "jittered")],

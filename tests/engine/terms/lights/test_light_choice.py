@@ -17,6 +17,7 @@ from course.engine.formats.yaml.description import MANY_LIGHTS
 from course.engine.terms.lights.light_choice import PowerChoice, power_of
 from tests.conftest import MakeScene
 from tests.estimates import estimate
+from tests.lengths import fewer
 
 each_form = pytest.mark.usefixtures("each_form")
 
@@ -89,6 +90,7 @@ def seen(make_scene: MakeScene, lights: list[dict[str, Any]], how: str, **integr
     )
 
 
+@fewer
 @each_form
 @pytest.mark.parametrize("name", LIGHTS)
 @pytest.mark.parametrize("kind", ["distribution", "path"])
@@ -101,6 +103,7 @@ def test_the_mean_is_that_of_all_lights(make_scene: MakeScene, name: str, kind: 
     assert (bound + tolerance < 0.2 * known).all()
 
 
+@fewer
 @each_form
 @pytest.mark.parametrize("name", LIGHTS)
 def test_a_hit_casts_one_shadow_ray(make_scene: MakeScene, name: str) -> None:

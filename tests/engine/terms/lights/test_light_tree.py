@@ -21,6 +21,7 @@ from course.engine.terms.lights.light_tree import TreeChoice, bounds_of
 from tests.conftest import MakeScene
 from tests.engine.terms.lights.test_light_choice import LIGHTS, POINTS, SUNS, WITH_A_SIZE, seen
 from tests.estimates import estimate
+from tests.lengths import fewer
 
 each_form = pytest.mark.usefixtures("each_form")
 
@@ -31,6 +32,7 @@ def choice_of(scene: Scene) -> TreeChoice:
     return choice.choice
 
 
+@fewer
 @each_form
 @pytest.mark.parametrize("name", LIGHTS)
 @pytest.mark.parametrize("kind", ["distribution", "path"])

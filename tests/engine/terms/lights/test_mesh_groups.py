@@ -15,6 +15,7 @@ from course.engine.shapes.mesh import Mesh
 from course.engine.terms.lights.mesh_groups import GROUPS, TRUST
 from course.engine.terms.lights.mesh_light import MeshLight, areas
 from tests.engine.terms.lights.mesh_lamps import BALL, KNOT, around, lamp, moved, without
+from tests.lengths import fewer
 
 LAMPS = {"ball": BALL, "knot": KNOT, "box": shapes.box(), "open": without(BALL, *range(400))}
 BELOW_ONE = np.nextafter(np.float32(1), np.float32(0))
@@ -41,6 +42,7 @@ def middles(light: MeshLight) -> Floats64:
 # ---------------------------------------------------------------- without bias
 
 
+@fewer
 @pytest.mark.parametrize("distance", [0.01, 0.31, 0.7, 50])
 @pytest.mark.parametrize("name", LAMPS)
 def test_what_is_chosen_by_its_weight_is_uniform_by_area(name: str, distance: float) -> None:

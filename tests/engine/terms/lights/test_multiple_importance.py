@@ -17,6 +17,7 @@ from course.engine.scene.scene import load_variant
 from course.engine.terms.lights.multiple_importance import Combining
 from tests.conftest import MakeScene
 from tests.estimates import estimate
+from tests.lengths import fewer
 
 WAYS = ("lobe", "lamp", "balance", "power")
 EXPONENT, MIRROR, RADIANCE = 20, 0.8, 3.0
@@ -77,6 +78,7 @@ def expected(lamp: dict[str, Any]) -> float:
     return MIRROR * RADIANCE * area * float((density * cosine / d**2).mean())
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 @pytest.mark.parametrize("lamp", [BALL, SHEET], ids=["ball", "sheet"])
 @pytest.mark.parametrize("way", WAYS)
@@ -259,6 +261,7 @@ def reflected(way: Any, alpha: float) -> Any:
     return 0.9 * fresnel * d / (1 + sum(lambdas)) / (4 * wo[1])
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 @pytest.mark.parametrize("alpha", [0.05, 0.3, 0.8])
 @pytest.mark.usefixtures("each_form")
@@ -280,6 +283,7 @@ def test_lights_without_a_surface_shine_on_rough_metals(
     )
 
 
+@fewer
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 @pytest.mark.parametrize("lamp", [BALL, SHEET], ids=["ball", "sheet"])
 @pytest.mark.parametrize("alpha", [0.05, 0.3])

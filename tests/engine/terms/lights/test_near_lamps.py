@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 INDEX, ABSORPTION = [0.2, 0.7, 1.3], [3.6, 2.6, 2.3]
@@ -64,6 +65,7 @@ def test_a_point_beside_smooth_metal(
     )
 
 
+@fewer
 @pytest.mark.parametrize("samples", ["sphere", "sphere by polar", "visible"])
 @pytest.mark.parametrize("way", ["lamp", "balance", "power"])
 @pytest.mark.parametrize(
@@ -121,6 +123,7 @@ def edge_on(
     return scene, 3 * abs(total) / 2 / math.pi
 
 
+@fewer
 @pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-6, 1e-7])
 @pytest.mark.parametrize("turned", TURNED, ids=["upright", "turned"])
 @pytest.mark.parametrize("samples", ["point", "grid 64"])

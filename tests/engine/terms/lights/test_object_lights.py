@@ -33,6 +33,7 @@ from tests.engine.terms.lights.over_a_floor import (
     share,
 )
 from tests.forms import needs_numba
+from tests.lengths import fewer
 
 LIGHTS = pytest.mark.parametrize("lights", [[LISTED], []], ids=["a light", "glowing"])
 """Listed as a light, or only glowing: by paths both bring the same."""
@@ -118,6 +119,7 @@ def test_a_moving_lamp_is_sampled_where_it_stands_at_the_time(
 # ---------------------------------------------------------------- what is seen
 
 
+@fewer
 @each_form
 @both
 @LIGHTS
@@ -133,6 +135,7 @@ def test_the_camera_sees_both_sides(
     assert (render(scene).linear == 3).all()
 
 
+@fewer
 @each_form
 @both
 @lamps
@@ -199,6 +202,7 @@ def test_the_floor_has_its_light_once_and_its_mirror_images_once(
     assert_mean(render(scene), 0.5 * 3 * (share() + 0.8 * share(x=-1.2)))
 
 
+@fewer
 @each_form
 @lamps
 @pytest.mark.parametrize("roulette", [None, 1])
@@ -215,6 +219,7 @@ def test_a_surface_that_also_mirrors_has_its_light_once(
     assert_mean(render(scene), 0.5 * 3 * share())
 
 
+@fewer
 @each_form
 @pytest.mark.parametrize(("kind", "roulette"), [("listed", None), ("glows", None), ("sphere", 1)])
 def test_a_lamp_inside_a_ball_lights_it_once(

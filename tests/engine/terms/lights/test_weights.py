@@ -21,6 +21,7 @@ from course import render
 from course.engine.functions.effects import Effects
 from course.engine.terms.scattering.microfacets import Microfacets
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 N = 300
@@ -229,6 +230,7 @@ ANGLES = {
 """To the normal, and to the plate."""
 
 
+@fewer
 @pytest.mark.parametrize("angle", ANGLES)
 @pytest.mark.parametrize("where", [(2.8, 0.6), (2.8, 1e-6), (1e6, 1.0)], ids=str)
 @pytest.mark.parametrize("lobe", LOBES)

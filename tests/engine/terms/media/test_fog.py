@@ -18,6 +18,7 @@ from course.engine.recording.recording import record
 from course.engine.scene.darkness import why_dark
 from tests.conftest import MakeScene
 from tests.engine.terms.lights.over_a_floor import assert_mean
+from tests.lengths import fewer
 from tests.processes import python
 
 AHEAD = {"eye": [0, 0, 3], "look_at": [0, 0, 0], "vertical_fov": 0.01}
@@ -129,6 +130,7 @@ def test_fog_without_an_end(make_scene: MakeScene, kind: str) -> None:
     assert_mean(render(scene), np.exp(-0.3 * 5))
 
 
+@fewer
 @pytest.mark.parametrize("g", [-0.9, 0, 0.8])
 @pytest.mark.parametrize("uneven", ["", "noise", "grid"])
 def test_fog_that_absorbs_nothing_is_invisible_in_even_light(
@@ -210,6 +212,7 @@ LAMPS = {
 }
 
 
+@fewer
 @both
 @pytest.mark.parametrize("lamp", LAMPS)
 @pytest.mark.parametrize("g", [0.4, -0.6])

@@ -23,6 +23,7 @@ from course.engine.terms.paths import path_tracing
 from course.engine.terms.paths import pieces as path_pieces
 from tests.conftest import MakeScene
 from tests.engine.terms.lights.over_a_floor import assert_mean
+from tests.lengths import fewer
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
@@ -61,6 +62,7 @@ def furnace(
 glow = pytest.mark.parametrize("glows", [False, True], ids=["ambient", "emission"])
 
 
+@fewer
 @glow
 @pytest.mark.parametrize(("reflectance", "shape"), [(0.1, BOX), (0.5, BALL), (0.95, BOX)])
 def test_a_furnace_adds_up_every_reflection(
@@ -86,6 +88,7 @@ def test_the_depth_is_the_number_of_bounces(make_scene: MakeScene, depth: int) -
     assert np.allclose(render(scene).linear, (1 - 0.8 ** (depth + 1)) / (1 - 0.8), rtol=1e-5)
 
 
+@fewer
 @pytest.mark.parametrize(
     "optics",
     [
@@ -108,6 +111,7 @@ def test_one_way_is_followed_and_stands_for_all(
     assert picture.receipt.rays["path"] == 100 * 32 * 32
 
 
+@fewer
 @pytest.mark.parametrize("roulette", [0, 3])
 def test_russian_roulette_keeps_the_mean(make_scene: MakeScene, roulette: int) -> None:
     color = [0.5, 0.7, 0.9]
@@ -182,6 +186,7 @@ def two_halves(folder: Path) -> list[dict[str, Any]]:
     return [thing | {"shading": "flat"} for thing in objects]
 
 
+@fewer
 @pytest.mark.parametrize(
     ("half", "roulette"), [("above", None), ("above", 2), ("below", 0), ("below", 3)]
 )

@@ -9,6 +9,7 @@ from course.engine.core.samplers import Block, Sampler
 from course.engine.functions.effects import Effects
 from course.engine.terms.samplers import FUNCTIONS, make_sampler
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 EFFECTS = Effects("solutions")
 NAMES = ("blue_noise", "dithered")
@@ -23,6 +24,7 @@ def whole(samples: int, pixels: int = WIDE * HIGH) -> Block:
     return Block(np.arange(pixels, dtype=np.uint32), 0, samples, 0)
 
 
+@fewer
 @pytest.mark.parametrize("samples", [1, 3, 16])
 @pytest.mark.parametrize("name", NAMES)
 def test_a_pixel_has_its_numbers_in_any_block(name: str, samples: int) -> None:

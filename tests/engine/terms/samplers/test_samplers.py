@@ -8,6 +8,7 @@ import pytest
 from course.engine.core.samplers import Block, Sampler
 from course.engine.functions.effects import Effects
 from course.engine.terms.samplers import FUNCTIONS, make_sampler
+from tests.lengths import fewer
 
 NAMES = tuple(FUNCTIONS)
 EFFECTS = Effects("solutions")
@@ -22,6 +23,7 @@ def block(pixels: int = 64, samples: int = 16, first: int = 0, part: int = 0) ->
     return Block(np.arange(pixels, dtype=np.uint32), first, samples, part)
 
 
+@fewer
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize(("dimension", "width"), [(0, 2), (2, 2), (4, 1), (5, 3), (200, 2)])
 def test_numbers_lie_in_the_half_open_unit_interval(name: str, dimension: int, width: int) -> None:
@@ -39,6 +41,7 @@ def test_the_largest_sobol_word_does_not_round_up_to_one() -> None:
     assert 1 - 2.0**-17 < u.max() < 1
 
 
+@fewer
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "regular"])
 @pytest.mark.parametrize("dimension", [0, 2, 3, 7, 100])
 def test_numbers_are_uniform(name: str, dimension: int) -> None:

@@ -20,6 +20,7 @@ from course.engine.terms.samplers.sobol import (
     shuffled,
     sobol_words,
 )
+from tests.lengths import fewer
 
 
 def indices(first: int, count: int) -> Words:
@@ -144,6 +145,7 @@ def test_the_first_four_dimensions_are_a_net(m: int, t: int) -> None:
             assert (np.bincount(box.astype(np.int64), minlength=2 ** (m - t)) == 2**t).all(), digits
 
 
+@fewer
 @pytest.mark.parametrize("pixels", [[7], list(range(300))])
 @pytest.mark.parametrize(
     ("first", "samples"), [(0, 4), (4, 12), (200, 100), (1000, 24), (1000, 25), (5000, 16)]

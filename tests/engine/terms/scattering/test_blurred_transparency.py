@@ -15,6 +15,7 @@ from tests.conftest import MakeScene
 from tests.drawn import numbers_drawn, rows
 from tests.estimates import estimate, fresnel
 from tests.forms import in_both_forms
+from tests.lengths import fewer
 
 MODULE = "blurred_transparency"
 FUNCTIONS = {f"{MODULE}.{name}" for name in COURSE[MODULE]}
@@ -67,6 +68,7 @@ def test_white_furnace_of_a_body_of_index_1(
     assert np.allclose(render(scene).linear, 1, rtol=0, atol=1e-6)
 
 
+@fewer
 @in_both_forms
 @pytest.mark.parametrize(("kind", "depth"), [("distribution", 6), ("path", 6), ("path", 64)])
 @pytest.mark.parametrize("roughness", [0, 0.01, 0.1, 0.3, 0.5, 0.8, 1])
@@ -148,6 +150,7 @@ def shows_the_share_of_the_square(
     return most
 
 
+@fewer
 @pytest.mark.parametrize("kind", TRACERS)
 @pytest.mark.parametrize("degrees", [0.0, 50.0])
 @pytest.mark.parametrize("width", [0.5, 0.8, 1.3])
@@ -186,6 +189,7 @@ def test_the_cone_behind_the_surface_is_as_wide_as_the_square(
         assert most == pytest.approx(through * math.pi / 16, rel=1e-3)
 
 
+@fewer
 @pytest.mark.parametrize("kind", TRACERS)
 @pytest.mark.parametrize("width", [0.5, 0.8, 1.3])
 def test_total_reflection_inside_is_spread_as_refraction_is(

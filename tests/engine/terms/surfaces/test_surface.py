@@ -28,6 +28,7 @@ from course.engine.formats.meshes import transforms
 from course.engine.shapes.mesh import Mesh
 from course.engine.terms.surfaces.surface import FullPart, FullSurface, build_surface
 from tests.conftest import MakeScene
+from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 STATS = QueryStats()
@@ -138,6 +139,7 @@ def self_hits(mesh: Mesh, grazing: bool, n: int = 40000) -> tuple[int, int]:
     return int((~free & fair).sum()), int(fair.sum())
 
 
+@fewer
 @pytest.mark.parametrize("grazing", [False, True], ids=["all over", "grazing"])
 @pytest.mark.parametrize("mesh", CONVEX.values(), ids=list(CONVEX))
 def test_rays_that_leave_a_surface_do_not_meet_it_again(mesh: Mesh, grazing: bool) -> None:
@@ -295,6 +297,7 @@ def seen_within(
     return render(scene).linear
 
 
+@fewer
 @pytest.mark.parametrize("solid", SOLIDS)
 @pytest.mark.parametrize("look_at", [[1, 0.3, 0.2], [0.2, -1, 0.3]])
 def test_inside_a_closed_mesh_no_light_from_outside_is_seen(

@@ -18,6 +18,7 @@ from course.engine.terms.surfaces.boxes import box_tree
 from course.engine.terms.surfaces.surface import FullPart, build_surface
 from course.engine.terms.surfaces.swept_movers import SweptMovers
 from solutions import motion_blur
+from tests.lengths import fewer
 
 N = 4000
 FUNCTIONS = Functions(**vars(motion_blur))
@@ -55,6 +56,7 @@ def rays(distance: float = 2.0) -> tuple[Any, Any, Any]:
     return origin.astype(np.float32), direction.astype(np.float32), rng.random(N, np.float32)
 
 
+@fewer
 @pytest.mark.parametrize("speed", [0.01, 0.5, 5.0])
 @pytest.mark.parametrize("count", [1, 4, 64])
 @pytest.mark.parametrize("distance", [2.0, 300.0])

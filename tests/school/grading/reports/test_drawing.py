@@ -14,6 +14,7 @@ from PIL import Image
 from course.school.grading.checks.check import Figure
 from course.school.grading.checks.result import Result, Status
 from course.school.grading.reports.drawing import BROKEN, Drawing, draw, is_noisy, with_own_ids
+from tests.lengths import fewer
 
 
 def pictures(**arrays: Any) -> Drawing:
@@ -152,6 +153,7 @@ def test_pixels_that_are_no_numbers_are_magenta_and_counted() -> None:
     assert "nan" not in panel.caption
 
 
+@fewer
 @pytest.mark.parametrize(
     "array",
     [
