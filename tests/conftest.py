@@ -31,6 +31,9 @@ MakeScene = Callable[..., Scene]
 Compiling = Callable[[], AbstractContextManager[None]]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 
+# Without it jsonschema reads the grammar of all addresses, in two seconds; no schema here has one.
+sys.modules["rfc3987_syntax"] = None  # type: ignore[assignment]
+
 # What a test renders must not depend on those before it: loops are compiled where a test asks for them.
 os.environ.setdefault("COURSE_NO_COMPILER", "1")
 
