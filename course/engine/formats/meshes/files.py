@@ -54,7 +54,7 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: InputLimit = USUAL)
     what of the file is left out, and faces that cross themselves or have no area.
     Raises GeometryError, naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no
     triangles, an index out of range, a vertex or a uv that is not finite and that a face has; in a PLY or OBJ file
-    a face of fewer than three corners. Of text the line is told. Normals that are not finite are computed, and told.
+    a face without corners. Of text the line is told. Normals that are not finite are computed, and told.
 
     Parameters
     ----------

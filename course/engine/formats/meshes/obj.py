@@ -23,9 +23,11 @@ from course.engine.formats.meshes.parts import (
     FilePart,
     behind,
     doubtful,
+    no_surface,
     numbers,
     real,
     same,
+    surfaces,
     whole,
 )
 from course.engine.formats.meshes.polygons import cut
@@ -123,8 +125,8 @@ def parse_obj(data: bytes) -> list[FilePart]:
 
     Vertices are parted where faces give them several uv or normals, and where smoothing groups end. Corners without uv,
     in a file where others have it, are at (0, 0); those without a normal have zeros in its place.
-    Raises ValueError, IndexError naming the line: for a row of too few numbers, or a word that is none; for a face of
-    fewer than three corners, whose corners differ in form, or that refers to what isn't there, or to a vertex or
+    Raises ValueError, IndexError naming the line: for a row of too few numbers, or a word that is none; for a face
+    without corners, whose corners differ in form, or that refers to what isn't there, or to a vertex or
     uv that isn't finite; for an s without a number.
     """
     lines = _Lines()
@@ -136,14 +138,21 @@ def parse_obj(data: bytes) -> list[FilePart]:
             raise ValueError(f"no triangles: {'; '.join(notes)}")
         return []
     lengths, corners = corners_of(lines.faces, (len(v), len(vt), len(vn)))
+    face = np.arange(len(lengths))
+    if (filled := surfaces(lengths)) is not None:
+        kept, chosen = filled
+        notes += no_surface([f"line {lines.faces[k].line}: a face" for k in np.flatnonzero(~kept)])
+        lengths, face = lengths[kept], face[kept]
+        corners = _chosen(corners, chosen)
+        if not kept.any():
+            raise ValueError(f"no triangles: {'; '.join(notes)}")
     for kind, rows, which in zip(KINDS[:2], (v, vt), corners[:2], strict=True):
         _check_finite(lines, kind, rows, which)
-    face = np.arange(len(lengths))
     if corners[2] is None and (once := one_sided(lengths, corners[0])) is not None:
         kept, chosen = once
         notes += behind(len(lengths) - int(kept.sum()), len(lengths))
-        lengths, face = lengths[kept], np.flatnonzero(kept)
-        corners = corners[0][chosen], None if corners[1] is None else corners[1][chosen], None
+        lengths, face = lengths[kept], face[kept]
+        corners = _chosen(corners, chosen)
     cuts = cut(lengths, corners[0], v)
     notes += doubtful([f"line {lines.faces[k].line}: a face" for k in face[cuts.doubtful]])
     names, name = _named(lines.marks["usemtl"], len(lines.faces))
@@ -158,6 +167,15 @@ def parse_obj(data: bytes) -> list[FilePart]:
             notes=notes,
         )
     ]
+
+
+def _chosen(corners: Corners, which: Indices) -> Corners:
+    vertex, at, toward = corners
+    return (
+        vertex[which],
+        None if at is None else at[which],
+        None if toward is None else toward[which],
+    )
 
 
 def _bare(at: Indices | None, where: Indices) -> Mask | None:

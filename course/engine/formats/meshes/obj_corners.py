@@ -54,11 +54,8 @@ def corners_of(
     """
     words = [face.text.split() for face in faces]
     lengths = np.array([len(each) for each in words], np.int64)
-    if lengths.min() < 3:
-        k = int(np.argmax(lengths < 3))
-        for word in words[k]:
-            _corner(word, faces[k])
-        raise ValueError(f"line {faces[k].line}: {too_few('a face', int(lengths[k]))}")
+    if not lengths.all():
+        raise ValueError(f"line {faces[np.argmin(lengths)].line}: {too_few('a face', 0)}")
     fields = _alike([word for each in words for word in each])
     if fields is None:
         rows = [

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from course.engine.core.types import Floats64
+from course.engine.core.types import Floats64, Indices, Mask
 
 Array = NDArray[Any]
 
@@ -126,9 +126,20 @@ def behind(count: int, of: int) -> tuple[str, ...]:
 
 
 def too_few(face: str, corners: int) -> str:
-    """The error of an invalid face."""
-    plural = "" if corners == 1 else "s"
-    return f"{face} has {corners} corner{plural}: expected 3 or more, or no such face"
+    """The error of a face that has no corners at all."""
+    return f"{face} has {corners} corners: expected 3 or more, or no such face"
+
+
+def surfaces(lengths: NDArray[np.int64]) -> tuple[Mask, Indices] | None:
+    """Return which faces have three corners or more, and the corners of these; None where all have."""
+    kept = lengths > 2
+    return None if kept.all() else (kept, np.flatnonzero(np.repeat(kept, lengths)))
+
+
+def no_surface(faces: Sequence[str]) -> tuple[str, ...]:
+    """What is told of faces of one or two corners, named by where they stand."""
+    more = f" and {len(faces) - 1:,} more have" if len(faces) > 1 else " has"
+    return (f"{faces[0]}{more} fewer than 3 corners, and so no surface: left out",)
 
 
 def same(*columns: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -1,9 +1,8 @@
 """PLY bytes to a `FilePart`: the header, its elements' rows as columns of numbers, and the mesh that these are.
 
-This is code of our own because a file is to be read as it is written, or refused with its line. trimesh 5.2 fails on
-31 of the 80 right files in `tests/engine/formats/meshes/test_broken_ply.py` and `test_ply_elements.py`, such as faces
-with uv in text. Of the 66 wrong ones it reads 33, such as faces of two corners and lines of too few numbers; where it
-refuses one, it names no line.
+This is code of our own because a file is to be read as it is written, or refused with its line. trimesh 5.2 failed
+on 31 of 80 right files in `tests/engine/formats/meshes/test_broken_ply.py` and `test_ply_elements.py`, such as faces
+with uv in text. Of 66 wrong ones it read 33, such as lines of too few numbers; where it refuses one, it names no line.
 
 The format: Greg Turk, "The PLY polygon file format", 1994; types as later programs write them.
 """
@@ -23,10 +22,12 @@ from course.engine.formats.meshes.parts import (
     Lists,
     behind,
     doubtful,
+    no_surface,
     numbers,
     real,
     runs,
     same,
+    surfaces,
     too_few,
 )
 from course.engine.formats.meshes.polygons import cut
@@ -136,11 +137,18 @@ def parse_ply(data: bytes) -> list[FilePart]:
         if name in vertex or name in face
     )[:1]
     lengths, values = corners.lengths, corners.values.astype(np.int64)
-    numbers_of, chosen = np.arange(len(lengths)), None
+    numbers_of, chosen = np.arange(len(lengths)), np.arange(len(values))
+    if (filled := surfaces(lengths)) is not None:
+        kept, chosen = filled
+        notes += no_surface([f"face {k}" for k in numbers_of[~kept]])
+        numbers_of, lengths, values = numbers_of[kept], lengths[kept], values[chosen]
+        if not kept.any():
+            raise ValueError(f"no triangles: {'; '.join(notes)}")
     if normals is None and values.min() >= 0 and (once := one_sided(lengths, values)) is not None:
-        kept, chosen = once
+        kept, among = once
         notes += behind(len(lengths) - int(kept.sum()), len(lengths))
-        numbers_of, lengths, values = np.flatnonzero(kept), lengths[kept], values[chosen]
+        numbers_of, lengths, values = numbers_of[kept], lengths[kept], values[among]
+        chosen = chosen[among]
     cuts = cut(lengths, values, vertices)
     notes += doubtful([f"face {k}" for k in numbers_of[cuts.doubtful]])
     part = FilePart(
@@ -155,7 +163,7 @@ def parse_ply(data: bytes) -> list[FilePart]:
     uv = np.zeros((corners.lengths.sum(), 2), wedges.values.dtype)
     uv[np.repeat(wedges.lengths > 0, corners.lengths)] = wedges.values.reshape(-1, 2)
     without = np.repeat(wedges.lengths == 0, corners.lengths)
-    uv, without = (rows if chosen is None else rows[chosen] for rows in (uv, without))
+    uv, without = uv[chosen], without[chosen]
     bare = without[cuts.where[:, 0]]
     part = replace(part, bare=bare if bare.any() else None)
     return [_split_by_corner(part, uv[cuts.where.ravel()])]
@@ -286,7 +294,7 @@ def _property(words: list[str], element: PlyElement, order: str) -> Property:
         raise ValueError(
             f"the corners of its faces are of type {types[1]}: expected whole numbers, such as int"
         )
-    return Property(name, kind, count[0], 3 if corners else 0)
+    return Property(name, kind, count[0], 1 if corners else 0)
 
 
 def _check(element: PlyElement) -> None:
@@ -304,8 +312,8 @@ def _check(element: PlyElement) -> None:
     if element.name == "face":
         only = properties[0]
         if len(properties) == 1 and only.count is not None and only.kind.kind != "f":
-            properties[0] = replace(only, name=CORNERS[0], least=3)
-        if [each.least for each in properties if each.name in CORNERS] != [3]:
+            properties[0] = replace(only, name=CORNERS[0], least=1)
+        if [each.least for each in properties if each.name in CORNERS] != [1]:
             raise ValueError(
                 "its faces have no list of corners: expected property list uchar int vertex_indices"
             )
