@@ -97,10 +97,16 @@ class Asset(msgspec.Struct, frozen=True):
     minVersion: str | None = None  # noqa: N815
 
 
+class OldAsset(msgspec.Struct, frozen=True):
+    """About a file of the first version, of which some programs wrote a number."""
+
+    version: str | float
+
+
 class Version(msgspec.Struct, frozen=True):
     """A file of which only the version is asked."""
 
-    asset: Asset
+    asset: OldAsset
 
 
 class Buffer(msgspec.Struct, frozen=True):
@@ -252,7 +258,8 @@ def read_root(text: bytes) -> tuple[Root, list[str]]:
 
 def _is_old(text: bytes) -> bool:
     try:
-        return msgspec.json.decode(text, type=Version).asset.version.startswith("1.")
+        version = msgspec.json.decode(text, type=Version).asset.version
+        return str(version).startswith("1.")
     except (msgspec.DecodeError, UnicodeError, RecursionError):
         return False
 

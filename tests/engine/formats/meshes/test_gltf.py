@@ -458,6 +458,10 @@ REFUSED: dict[str, tuple[Change, str]] = {
         lambda w: w.header.update(asset={"version": "1.0"}, meshes={"a": {}}),
         "glTF of version 1: expected 2.0; convert it",
     ),
+    "version 1 as a number": (
+        lambda w: w.header.update(asset={"version": 1}, meshes={"a": {}}),
+        "glTF of version 1: expected 2.0; convert it",
+    ),
     "least version": (
         lambda w: w.header.update(asset={"version": "2.0", "minVersion": "2.9"}),
         "version 2.9: expected 2.0",
