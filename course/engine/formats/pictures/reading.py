@@ -5,6 +5,7 @@ Pillow reads what has 8 bits a channel, OpenImageIO what has more; each is impor
 
 from __future__ import annotations
 
+import re
 import threading
 import warnings
 from collections.abc import Callable
@@ -45,6 +46,9 @@ TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 
 FRAMES: Final = ("GIF", "WEBP", "TIFF", "PNG")
 """Formats that may have several pictures of which each is one to be looked at."""
+
+_PNM_HEADER: Final = 4096
+"""Bytes in which the numbers of a PGM or PPM stand, with comments between."""
 
 USUAL_FILE: Final = InputLimit(LARGEST_DATA)
 USUAL_PIXELS: Final = InputLimit(MOST_PIXELS)
@@ -102,8 +106,11 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: InputLimit, codes: bool) -
     # Pillow warns of what it can read all the same, such as a damaged date or 90 million pixels.
     with warnings.catch_warnings(action="ignore"), _opened(stream) as image:
         check_size(image.width, image.height, pixels)
-        if image.mode in ("I", "F"):
-            raise ValueError("its values have 32 bits; save it with 8 or 16, or as EXR")
+        deep = _is_deep_pnm(stream)
+        if image.mode in ("I", "F") and not deep:
+            raise ValueError(
+                "its values are no whole numbers of 8 or 16 bits without a sign; save it with such, or as EXR"
+            )
         if image.format in FRAMES and (frames := getattr(image, "n_frames", 1)) > 1:
             image.seek(0)
             notes.append(f"it has {frames:,} pictures, and the first is taken")
@@ -111,7 +118,7 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: InputLimit, codes: bool) -
         turned = orientation(image) if image.format == "TIFF" else 1
         # Of a corrupt file Pillow only raises an error; OpenImageIO's PNG library would print one as well.
         image.load()
-        deep = image.mode.startswith("I;16") or _is_deep_png(stream)
+        deep = deep or image.mode.startswith("I;16") or _is_deep_png(stream)
         if image.format != "TIFF" or not deep:
             turned = orientation(image)
         if see_through(image):
@@ -213,6 +220,18 @@ def _is_deep_png(stream: BinaryIO) -> bool:
     return start[:8] == b"\x89PNG\r\n\x1a\n" and start[24] == 16
 
 
+def _is_deep_pnm(stream: BinaryIO) -> bool:
+    """True for a PGM or PPM whose largest code is above 255, of which Pillow reads 8 bits, or 32 (Netpbm's ppm(5))."""
+    stream.seek(0)
+    words = re.sub(rb"#[^\r\n]*", b"", stream.read(_PNM_HEADER)).split(None, 4)
+    return (
+        len(words) > 3
+        and words[0] in (b"P2", b"P3", b"P5", b"P6")
+        and words[3].isdigit()
+        and int(words[3]) > 255
+    )
+
+
 def _read_linear(
     stream: BinaryIO, path: Path, most: InputLimit, codes: bool, layer: str | None
 ) -> ReadPicture:
@@ -280,6 +299,14 @@ def _open_linear(path: Path) -> tuple[ImageInput, ImageSpec]:
 
 def _check_linear(spec: ImageSpec, turned: int) -> None:
     """Refuse what would be read as another picture than the file shows; ``turned``: how it is known to be."""
+    if spec.deep:
+        raise ValueError(
+            "it is deep: its pixels have several colours, one behind the other; flatten it in the program that made it"
+        )
+    if spec.get_string_attribute("textureformat").startswith("CubeFace"):
+        raise ValueError(
+            "it is a cube map, of six pictures; save it as one over longitude and latitude"
+        )
     if str(spec.format) not in ("half", "float"):
         raise ValueError(f"its values are {spec.format}, not half or float")
     if turned == 1 and spec.get_int_attribute("Orientation", 1) != 1:

@@ -44,6 +44,16 @@ def png(
     )
 
 
+def netpbm(codes: Codes, white: int, plain: bool = False) -> bytes:
+    """A PGM of codes (H, W, 1), or a PPM of three channels, whose largest code is ``white``; plain ones are in text."""
+    height, width, channels = codes.shape
+    kind = (2 if plain else 5) + (channels == 3)
+    head = f"P{kind} # of {white}\n# by hand\n{width} {height}\n{white}\n".encode()
+    if plain:
+        return head + "\n".join(map(str, codes.ravel())).encode() + b"\n"
+    return head + codes.astype(">u2" if white > 255 else "u1").tobytes()
+
+
 def radiance(
     codes: Codes,
     *,
@@ -88,10 +98,12 @@ def exr(
     shift: tuple[int, int] = (0, 0),
     shown: tuple[int, int] | None = None,
     chromaticities: tuple[float, ...] | None = None,
+    envmap: int | None = None,
 ) -> bytes:
     """An OpenEXR file of planes (H, W), not compressed; its data window is moved by shift from its display window.
 
     ``shown``: width and height of the display window; those of the planes if not given
+    ``envmap``: 0 for a sky over longitude and latitude, 1 for six faces of a cube
     """
     channels = dict(sorted(channels.items()))
     height, width = next(iter(channels.values())).shape
@@ -117,6 +129,8 @@ def exr(
     if chromaticities is not None:
         listed = struct.pack("<8f", *chromaticities)
         attributes.append(("chromaticities", "chromaticities", listed))
+    if envmap is not None:
+        attributes.append(("envmap", "envmap", bytes((envmap,))))
     head = struct.pack("<II", 20000630, 2)
     for name, kind, content in attributes:
         head += f"{name}\0{kind}\0".encode() + struct.pack("<i", len(content)) + content

@@ -445,6 +445,38 @@ def test_windows_that_do_not_meet_and_huge_ones_are_refused(tmp_path: Path) -> N
         read_picture(path)
 
 
+@pytest.mark.parametrize("samples", [1, 2])
+def test_deep_pictures_are_refused(tmp_path: Path, samples: int) -> None:
+    """Read as others, they have zeros where several colours lie one behind the other."""
+    names = ("R", "G", "B", "A")
+    spec = OpenImageIO.ImageSpec(6, 4, 4, "half")
+    spec.channelnames, spec.deep = names, True
+    deep = OpenImageIO.DeepData()
+    deep.init(24, 4, ["half"] * 4, list(names))
+    for pixel in range(24):
+        deep.set_samples(pixel, samples)
+        for number in range(samples):
+            for channel in range(4):
+                deep.set_deep_value(pixel, channel, number, 0.5)
+    file = OpenImageIO.ImageOutput.create("openexr")
+    assert file.open(str(tmp_path / "a.exr"), spec)
+    assert file.write_deep_image(deep)
+    assert file.close()
+    with pytest.raises(SceneError, match=r"a.exr: .*it is deep: .* flatten it in the program"):
+        read_picture(tmp_path / "a.exr")
+
+
+def test_of_cubes_no_face_is_taken_for_the_whole_sky(tmp_path: Path) -> None:
+    """Their display window is the first of six faces."""
+    rows = {name: np.random.default_rng(1).random((24, 4)).astype(np.float32) for name in "RGB"}
+    path = tmp_path / "a.exr"
+    path.write_bytes(by_hand.exr(rows, shown=(4, 4), envmap=1))
+    with pytest.raises(SceneError, match=r"a.exr: .*it is a cube map, of six .* over longitude and"):
+        read_picture(path)
+    path.write_bytes(by_hand.exr(rows, envmap=0))
+    assert (read_picture(path) == np.stack(list(rows.values()), axis=-1)).all()
+
+
 def test_films_are_told(tmp_path: Path) -> None:
     frames = [Image.new("L", (8, 8), k * 100) for k in range(3)]
     frames[0].save(tmp_path / "a.gif", save_all=True, append_images=frames[1:])

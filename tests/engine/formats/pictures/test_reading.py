@@ -121,6 +121,22 @@ def test_every_code_of_16_bits_is_decoded_by_the_srgb_formula(read: Read, channe
     assert (np.diff(picture[..., 0].ravel()) > 0).all()
 
 
+@pytest.mark.parametrize("plain", [False, True])
+@pytest.mark.parametrize("white", [255, 1000, 4095, 65535])
+@pytest.mark.parametrize("channels", [1, 3])
+def test_pgm_and_ppm_of_any_largest_code(
+    read: Read, channels: int, white: int, plain: bool
+) -> None:
+    """Netpbm's pgm(5) and ppm(5): a code is a share of the largest; those of 1000 are rounded to 16 bits."""
+    given = np.random.default_rng(4).integers(0, white + 1, (6, 8, channels))
+    given[0, 0], given[0, 1] = 0, white
+    picture = read("a.ppm", by_hand.netpbm(given, white, plain))
+    shown = np.broadcast_to(given, (6, 8, 3))
+    expected = linear(np.rint(shown / white * 65535).astype(int), 65535)
+    np.testing.assert_allclose(picture, expected, rtol=1e-4, atol=3e-6)
+    assert picture[0, 1].tolist() == [1, 1, 1]
+
+
 @pytest.mark.parametrize("bits", [8, 16])
 def test_codes_are_shares_of_the_largest_without_a_curve(tmp_path: Path, bits: int) -> None:
     (tmp_path / "a.png").write_bytes(by_hand.png(codes(3, bits), bits))
@@ -164,7 +180,9 @@ def test_32_bits_a_channel_are_not_taken_for_codes(refusal: Callable[[str, bytes
     for values in (np.ones((4, 8), np.float32), np.ones((4, 8), np.int32)):
         file = io.BytesIO()
         Image.fromarray(values).save(file, "TIFF")
-        assert "its values have 32 bits" in refusal("a.tif", file.getvalue())
+        assert "its values are no whole numbers of 8 or 16 bits" in refusal(
+            "a.tif", file.getvalue()
+        )
 
 
 def test_nothing_is_said_of_what_can_be_read_all_the_same(
