@@ -170,12 +170,9 @@ def parse_obj(data: bytes) -> list[FilePart]:
 
 
 def _chosen(corners: Corners, which: Indices) -> Corners:
-    vertex, at, toward = corners
-    return (
-        vertex[which],
-        None if at is None else at[which],
-        None if toward is None else toward[which],
-    )
+    vertex, *others = corners
+    at, toward = (None if each is None else each[which] for each in others)
+    return vertex[which], at, toward
 
 
 def _bare(at: Indices | None, where: Indices) -> Mask | None:

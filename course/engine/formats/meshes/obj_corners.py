@@ -55,7 +55,7 @@ def corners_of(
     words = [face.text.split() for face in faces]
     lengths = np.array([len(each) for each in words], np.int64)
     if not lengths.all():
-        raise ValueError(f"line {faces[np.argmin(lengths)].line}: {too_few('a face', 0)}")
+        raise ValueError(f"line {faces[int(np.argmin(lengths))].line}: {too_few('a face', 0)}")
     fields = _alike([word for each in words for word in each])
     if fields is None:
         rows = [

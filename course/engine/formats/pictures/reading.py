@@ -47,9 +47,6 @@ TIFF: Final = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 FRAMES: Final = ("GIF", "WEBP", "TIFF", "PNG")
 """Formats that may have several pictures of which each is one to be looked at."""
 
-_PNM_HEADER: Final = 4096
-"""Bytes in which the numbers of a PGM or PPM stand, with comments between."""
-
 USUAL_FILE: Final = InputLimit(LARGEST_DATA)
 USUAL_PIXELS: Final = InputLimit(MOST_PIXELS)
 
@@ -106,11 +103,9 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: InputLimit, codes: bool) -
     # Pillow warns of what it can read all the same, such as a damaged date or 90 million pixels.
     with warnings.catch_warnings(action="ignore"), _opened(stream) as image:
         check_size(image.width, image.height, pixels)
-        deep = _is_deep_pnm(stream)
+        deep = image.format == "PPM" and _is_deep_pnm(stream)
         if image.mode in ("I", "F") and not deep:
-            raise ValueError(
-                "its values are no whole numbers of 8 or 16 bits without a sign; save it with such, or as EXR"
-            )
+            raise ValueError("its values are no codes of 8 or 16 bits; save them so, or as EXR")
         if image.format in FRAMES and (frames := getattr(image, "n_frames", 1)) > 1:
             image.seek(0)
             notes.append(f"it has {frames:,} pictures, and the first is taken")
@@ -223,13 +218,8 @@ def _is_deep_png(stream: BinaryIO) -> bool:
 def _is_deep_pnm(stream: BinaryIO) -> bool:
     """True for a PGM or PPM whose largest code is above 255, of which Pillow reads 8 bits, or 32 (Netpbm's ppm(5))."""
     stream.seek(0)
-    words = re.sub(rb"#[^\r\n]*", b"", stream.read(_PNM_HEADER)).split(None, 4)
-    return (
-        len(words) > 3
-        and words[0] in (b"P2", b"P3", b"P5", b"P6")
-        and words[3].isdigit()
-        and int(words[3]) > 255
-    )
+    words = re.sub(rb"#[^\r\n]*", b"", stream.read(1 << 16)).split(None, 4)
+    return words[0] in (b"P2", b"P3", b"P5", b"P6") and int(words[3]) > 255
 
 
 def _read_linear(
@@ -300,13 +290,9 @@ def _open_linear(path: Path) -> tuple[ImageInput, ImageSpec]:
 def _check_linear(spec: ImageSpec, turned: int) -> None:
     """Refuse what would be read as another picture than the file shows; ``turned``: how it is known to be."""
     if spec.deep:
-        raise ValueError(
-            "it is deep: its pixels have several colours, one behind the other; flatten it in the program that made it"
-        )
+        raise ValueError("it is deep, of several colours in a pixel; flatten it where it was made")
     if spec.get_string_attribute("textureformat").startswith("CubeFace"):
-        raise ValueError(
-            "it is a cube map, of six pictures; save it as one over longitude and latitude"
-        )
+        raise ValueError("it is a cube map, of six pictures; save it by longitude and latitude")
     if str(spec.format) not in ("half", "float"):
         raise ValueError(f"its values are {spec.format}, not half or float")
     if turned == 1 and spec.get_int_attribute("Orientation", 1) != 1:

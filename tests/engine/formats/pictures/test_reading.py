@@ -180,9 +180,7 @@ def test_32_bits_a_channel_are_not_taken_for_codes(refusal: Callable[[str, bytes
     for values in (np.ones((4, 8), np.float32), np.ones((4, 8), np.int32)):
         file = io.BytesIO()
         Image.fromarray(values).save(file, "TIFF")
-        assert "its values are no whole numbers of 8 or 16 bits" in refusal(
-            "a.tif", file.getvalue()
-        )
+        assert "its values are no codes of 8 or 16 bits" in refusal("a.tif", file.getvalue())
 
 
 def test_nothing_is_said_of_what_can_be_read_all_the_same(
