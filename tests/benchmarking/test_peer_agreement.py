@@ -18,6 +18,7 @@ from benchmarks.peer_agreement import DOCUMENT, cases, measure, read, table
 from benchmarks.peer_scenes import scene_path
 from course import load_scene
 from course.engine.functions.modules import COURSE
+from tests.lengths import share
 
 LIMIT = 10.0
 
@@ -41,7 +42,7 @@ def test_the_page_has_the_table_of_what_is_kept() -> None:
 
 
 @pytest.mark.usefixtures("llvm")
-@pytest.mark.parametrize("name", ["Veach's plates, Phong's lobes", "rough metals"])
+@pytest.mark.parametrize("name", share(["Veach's plates, Phong's lobes", "rough metals"], 2))
 def test_pictures_agree_again(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(peer_agreement, "SIZE", (48, 32))
     found = measure(name, replace(cases()[name], samples=64, theirs=64), 16, tmp_path)

@@ -87,8 +87,8 @@ WATCHES = {
 STAYS = {"studio", "view", *WATCHES}
 """Commands that run until Ctrl-C."""
 
-BEGUN = {"release", "references", "quiz", "calibrate"}
-"""Commands that take a minute. All that they import, they have imported, and started what they start, after this."""
+BEGUN = {"release", "references", "quiz", "calibrate", "portfolio", "viva"}
+"""Commands that take long. All that they import, they have imported, and started what they start, after this."""
 
 SECONDS = 6.0
 

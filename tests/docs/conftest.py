@@ -13,8 +13,8 @@ from tests.once import Once
 sys.path.append(str(PROJECT / "docs"))
 
 
-SIZE, SMALL = "WIDTH = 360, HEIGHT = 270", "WIDTH = 120, HEIGHT = 90"
-"""Of pictures that pages compute: a ninth of the pixels, for there may be no graphics card."""
+SIZE, SMALL = "WIDTH = 360, HEIGHT = 270", "WIDTH = 72, HEIGHT = 54"
+"""Of pictures that pages compute: a 25th of the pixels, for there may be no graphics card."""
 
 
 @pytest.fixture(scope="session")

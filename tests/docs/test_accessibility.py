@@ -120,7 +120,7 @@ def test_every_page_opens_on_both_screens_and_axe_finds_nothing(
     files = sorted(site.rglob("*.html"))[part::PARTS]
     assert len(files) > 6
     # Pages beside each other are made alike; the front's is of a kind of its own.
-    files = [site / "index.html", *share(files, 2)]
+    files = [site / "index.html", *share(files, 4)]
     for file in files:
         page.set_viewport_size({"width": 1280, "height": 900})
         page.emulate_media(color_scheme="light")

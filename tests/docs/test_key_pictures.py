@@ -17,6 +17,8 @@ from sitebuild.key_variants import HEAT_MAPS, VARIANTS
 from sitebuild.key_words import ELSEWHERE, FLAT, WORDS
 from sitebuild.place import Place
 
+from tests.lengths import share
+
 SMALL = (60, 40)
 BLOCK = 2
 """Pictures are compared by the means of blocks, of so many pixels each way."""
@@ -36,7 +38,7 @@ def test_every_key_is_one_of_the_format() -> None:
         assert key in definitions[definition]["properties"], f"{definition}.{key}"
 
 
-@pytest.mark.parametrize("definition", sorted({definition for definition, _ in VARIANTS}))
+@pytest.mark.parametrize("definition", share(sorted({definition for definition, _ in VARIANTS}), 3))
 def test_values_show_a_difference(definition: str) -> None:
     for (of, key), variants in VARIANTS.items():
         if of != definition:

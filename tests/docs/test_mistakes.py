@@ -16,6 +16,7 @@ from PIL import Image
 from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
+from tests.lengths import share
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
@@ -196,7 +197,7 @@ def test_what_is_wrong_looks_wrong(name: str, wrong: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", [name for name in ASKED if any(is_plot(one.draw) for one in looks(name))]
+    "name", share([name for name in ASKED if any(is_plot(one.draw) for one in looks(name))], 3)
 )
 def test_nothing_that_is_written_in_a_plot_is_cut_off(
     name: str, monkeypatch: pytest.MonkeyPatch

@@ -14,7 +14,7 @@ from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
 from course.school.quizzes.declared import RIGHT, Asked, asked
 from tests.browser import tab_to, untroubled
-from tests.lengths import LONG
+from tests.lengths import LONG, share
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
@@ -59,7 +59,7 @@ def measured(module: str) -> Iterator[tuple[Asked, Plan]]:
         rendered += not plotted
 
 
-@pytest.mark.parametrize("module", ASKED)
+@pytest.mark.parametrize("module", share([*ASKED], 2))
 def test_answers_are_told_apart_by_measurement_or_said_to_be_unseen(module: str) -> None:
     # Numbers are seeded: what passes passes always.
     for each, plan in measured(module):

@@ -8,6 +8,7 @@ import pytest
 
 from course.engine.functions.modules import COURSE
 from tests.browser import untroubled
+from tests.lengths import share
 
 DECK = ".deck .slide.now"
 
@@ -27,7 +28,7 @@ TURNED_AND_TOO_WIDE = """(count) => {
 """Turn all slides, and say which don't fit. To press a key of the browser's would draw each of them."""
 
 
-@pytest.mark.parametrize("module", COURSE)
+@pytest.mark.parametrize("module", share([*COURSE], 3))
 def test_all_of_a_page_is_in_its_slides_or_its_notes(browser: Any, site: Path, module: str) -> None:
     file = site / "modules" / f"{module}.html"
     with untroubled(browser, viewport={"width": 1280, "height": 720}) as page:

@@ -19,6 +19,7 @@ from course.engine.recording.segments import Names, Segment
 from course.engine.recording.stages import RecordedEffects
 from course.engine.scene.scene import load_variant
 from tests.conftest import MakeScene
+from tests.lengths import share
 
 SCENES = sorted(path.stem for path in (PROJECT / "scenes").glob("*.yaml"))
 SIZE, SPP = (16, 12), 17
@@ -60,7 +61,7 @@ def check(picture: Picture, recording: Recording) -> None:
     assert recording.segments
 
 
-@pytest.mark.parametrize("name", [name for name in SCENES if name not in OF_ITS_OWN])
+@pytest.mark.parametrize("name", share([name for name in SCENES if name not in OF_ITS_OWN], 3))
 def test_a_recording_has_the_bits_of_the_picture_and_all_of_its_light(name: str) -> None:
     check(*picture_and_recording(scene_of(name)))
 

@@ -15,6 +15,7 @@ from course.engine.functions.modules import COURSE
 from course.school.studio.server import Server
 from course.school.studio.studio import Studio
 from tests.browser import tab_to
+from tests.lengths import share
 from tests.school.studio.conftest import RIGHT, SCENE, WRONG, until, write
 
 # Where many tests run at once, a process is long in starting.
@@ -125,7 +126,7 @@ SAID_WITHIN, TRIES = 2.0, 5
 """Seconds from the save to the page; the fastest of some tries counts, for other work takes the processors at times."""
 
 
-@pytest.mark.parametrize("what", GOES_WRONG)
+@pytest.mark.parametrize("what", share([*GOES_WRONG], 4))
 def test_what_goes_wrong_is_said_within_two_seconds_and_the_page_goes_on(
     browser: Any, studio: Studio, work: Path, what: str
 ) -> None:

@@ -30,6 +30,7 @@ from tests.engine.terms.lights.test_weights import (
     reflected,
 )
 from tests.estimates import fresnel
+from tests.lengths import share
 
 SEEN = Seen()
 DISTANCE, RADIUS, SMALL, SPEED = 2.8, 0.6, 0.01, 0.8
@@ -312,7 +313,7 @@ def shown(folder: Path, row: Row, plates: list[str], way: str, integrator: str) 
     return dict(zip(plates, means.tolist(), strict=True))
 
 
-@pytest.mark.parametrize("name", ROWS)
+@pytest.mark.parametrize("name", share([*ROWS], 3))
 def test_a_light_is_found_once(tmp_path: Path, name: str) -> None:
     """Integrators take turns, and so does glass, with which the distribution ray tracer leaves all to lobes.
 

@@ -19,6 +19,7 @@ from course.school.grading.release.archive import (
     write_archive,
     write_folder,
 )
+from tests.lengths import share
 from tests.processes import python
 from tests.school.grading.lent import ReferencesFile
 
@@ -94,7 +95,7 @@ def test_the_same_course_gives_the_same_archive(archive: Path, tmp_path: Path) -
     assert again.read_bytes() == archive.read_bytes()
 
 
-@pytest.mark.parametrize("module", [one for one in COURSE if one not in LONG])
+@pytest.mark.parametrize("module", share([one for one in COURSE if one not in LONG], 3))
 def test_references_made_again_are_the_same(
     references_file: ReferencesFile, tmp_path: Path, module: str
 ) -> None:
