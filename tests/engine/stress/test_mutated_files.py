@@ -21,7 +21,7 @@ from tests.lengths import LONG
 
 ROOT = Path(__file__).parents[3]
 KINDS = {kind.name: kind for kind in file_kinds()}
-FILES = 10_000 // (len(KINDS) - 1) if LONG else 8
+FILES = 10_000 // (len(KINDS) - 1) if LONG else 16
 """Of each kind, but for those with a smaller share."""
 
 SECONDS = 20.0

@@ -96,7 +96,7 @@ def test_random_scenes_render_finite_or_are_refused_by_their_line(folder: Path) 
     found: list[str] = []
     drawn: set[str] = set()
 
-    @examples(short=40, long=2000)
+    @examples(short=60, long=2000)
     @given(description=descriptions())
     def check(description: dict[str, Any]) -> None:
         drawn.update(kinds(description))
