@@ -30,6 +30,7 @@ class ResultContract:
     dtype : None for that of the batch arguments; a kind ("int", "floating") where any of it does
     finite : whether it is, for every legal argument
     unit : whether it is directions of length 1
+    signed : of one that needn't be finite, whether both infinities are legal, and not only the one above all numbers
     below : of whole numbers the size or number that they are below, from 0 on; "" where any will do
     """
 
@@ -38,12 +39,14 @@ class ResultContract:
     dtype: Any = None
     finite: bool = True
     unit: bool = False
+    signed: bool = False
     below: str = ""
 
     @cached_property
     def kind(self) -> str:
-        """Condition for results: "" (floating and finite), "unit", "infinite", "whole" or "bool"."""
-        return "unit" if self.unit else _KINDS.get(self.dtype, "" if self.finite else "infinite")
+        """Condition for results: "" (floating and finite), "unit", "infinite", "unbounded", "whole" or "bool"."""
+        endless = "unbounded" if self.signed else "infinite"
+        return "unit" if self.unit else _KINDS.get(self.dtype, "" if self.finite else endless)
 
     @cached_property
     def sizes(self) -> tuple[Size, ...]:
@@ -101,14 +104,15 @@ def parsed(text: str) -> Contract:
         name, _, rest = part.partition(":")
         words = rest.split()
         below = next((word for word in words if word.startswith("below:")), "")
-        said = {*DTYPES, "unit", "infinite", "*", below} & {*words}
+        said = {*DTYPES, "unit", "infinite", "unbounded", "*", below} & {*words}
         results.append(
             ResultContract(
                 name.strip(),
                 " ".join(word for word in words if word not in said),
                 next((DTYPES[word] for word in words if word in DTYPES), None),
-                "infinite" not in said,
+                not said & {"infinite", "unbounded"},
                 "unit" in said,
+                "unbounded" in said,
                 below[6:],
             )
         )

@@ -240,6 +240,7 @@ _DTYPES = {
     "": ("float32", "fiu"),
     "unit": ("float32 unit directions", "fiu"),
     "infinite": ("float32", "fiu"),
+    "unbounded": ("float32", "fiu"),
     "whole": ("whole numbers", "iu"),
     "bool": ("bool", "b"),
 }
@@ -270,6 +271,8 @@ def _right(array: Any, kind: str) -> bool:
         return bool(low >= SHORTEST and high <= LONGEST)
     if kind == "infinite":
         return bool(array.min() > -np.inf)
+    if kind == "unbounded":
+        return not np.isnan(array.min())
     with np.errstate(over="ignore", invalid="ignore"):
         # One pass takes two thirds of the time of two. Where the sum is large, each number is looked at.
         total = np.einsum("i->", array.reshape(-1))
@@ -285,7 +288,9 @@ def _wrong(array: Any, kind: str) -> str:
         return (
             f"whose column {column} is ({numbers}), of length {length[column]:g}; expected length 1"
         )
-    bad = np.isnan(array) | (np.isneginf(array) if kind == "infinite" else np.isinf(array))
+    bad = np.isnan(array)
+    if kind != "unbounded":
+        bad |= np.isneginf(array) if kind == "infinite" else np.isinf(array)
     expected = "finite numbers"
     if not bad.any():
         bad, expected = np.abs(array) >= LARGEST, f"numbers below {LARGEST:g}"

@@ -6,10 +6,10 @@ what the arguments of a call don't say of it, the results may choose, and ``k*k`
 for a list of arrays.
 
 A result is what it is called, and its shape, after what its numbers are: floating, of the batch arguments' dtype, and
-finite where nothing is said; ``unit`` for directions of length 1, ``infinite`` where infinity is legal, ``whole``
-or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is floating, or whole. Whole numbers
-with ``below:K`` are at least 0 and less than K, a size or a number; an argument that is several arrays stands for the
-length of the last.
+finite where nothing is said; ``unit`` for directions of length 1, ``infinite`` where infinity is legal, ``unbounded``
+where both infinities are, ``whole`` or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is
+floating, or whole. Whole numbers with ``below:K`` are at least 0 and less than K, a size or a number; an argument that
+is several arrays stands for the length of the last.
 """
 
 from course.engine.functions.further import further_contracts
@@ -96,7 +96,7 @@ CONTRACTS = {
     " -> the radiosity: 3 P, the unshot radiosity: 3 P",
     "radiosity.needs_split": "patch_radiosity: 3 K N, threshold -> the decisions: bool N",
     "denoising.welch_t": "mean_a: 3 N, variance_a: 3 N, count_a: N, mean_b: 3 N, variance_b: 3 N, count_b: N"
-    " -> the statistics: infinite 3 N",
+    " -> the statistics: unbounded 3 N",
     "denoising.degrees_of_freedom": "variance_a: 3 N, count_a: N, variance_b: 3 N, count_b: N -> the degrees: 3 N",
     "denoising.critical_value": "degrees: N, level -> the critical values: N",
     "denoising.pair_weights": "t: 3 N, critical: 3 N, distance: N, sigma -> the weights: N",
