@@ -31,6 +31,9 @@ NARROW = 400
 SAMPLES = 256
 """Samples a pixel at most, where a scene is as large as it says."""
 
+PATHS = 17_500_000
+"""Of a picture at most: it has fewer pixels where each has many samples, so that the whole site is drawn in minutes."""
+
 FEW = 4
 """Samples a pixel that stay as they are; of more, twice the pixels across have a quarter, which is the same light."""
 
@@ -115,6 +118,8 @@ def _size_and_samples(loaded: Loaded) -> tuple[tuple[int, int], int]:
             samples = max(samples // 4, FEW)
         if sampler.type in ("regular", "jittered"):
             samples = max(math.isqrt(samples) ** 2, 1)
+    paths = width**2 * film.height / film.width * samples
+    width = round(width * min(1.0, math.sqrt(PATHS / paths)))
     return (width, round(width * film.height / film.width)), samples
 
 

@@ -14,12 +14,18 @@ from sitebuild.place import Place
 def picture(place: Place, name: str, words: str = "") -> str:
     """Show a scene; ``words`` are for those who don't see it. A picture that lies beside it is shown as it is."""
     planned = pictures.shot(name)
+    if shown := _beside(place, planned, words):
+        return f'<p class="wide large">{shown}</p>\n'
+    return f'<p class="{_wide(planned.size)}">{image(place, planned, words)[0]}</p>\n'
+
+
+def _beside(place: Place, planned: pictures.Shot, words: str) -> str:
+    """The picture that lies beside a scene, rendered as its file says; nothing where none does."""
     beside = planned.scene.with_suffix(".webp")
     if not beside.is_file():
-        return f'<p class="{_wide(planned.size)}">{image(place, planned, words)[0]}</p>\n'
+        return ""
     with Image.open(beside) as kept:
-        shown = tag(place.address(f"_pictures/{planned.file}", beside), words, kept.size)
-    return f'<p class="wide large">{shown}</p>\n'
+        return tag(place.address(f"_pictures/{planned.file}", beside), words, kept.size)
 
 
 def before_after(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
@@ -60,9 +66,12 @@ def slider(
 def shot(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     """Show a scene under its title, with its command, its receipt and its file."""
     planned = pictures.shot(name)
+    file = place.address(f"_scenes/{name.replace('/', '-')}.yaml", planned.scene)
+    if shown := _beside(place, planned, planned.title):
+        command, said = f"course render scenes/{name}.yaml", "as the scene file says"
+        return laid_out(planned.title, shown, command, "", planned.scene, file, said, "wide large")
     shown, receipt = image(place, planned)
     text = pictures.receipt_text(planned, receipt) if receipt else "not rendered in this build"
-    file = place.address(f"_scenes/{name.replace('/', '-')}.yaml", planned.scene)
     cost = ""
     if receipt:
         threads, seconds = receipt["threads"], receipt["wall_seconds"]
@@ -88,12 +97,15 @@ def laid_out(
     Parameters
     ----------
     image : HTML
-    receipt : what the command prints
+    receipt : what the command prints; empty where nobody has kept it
     file : address of the scene on the site
     cost : what stands below the picture
     wide : classes of what it stands in
     """
     kind = scene.suffix.removeprefix(".")
+    folded = ""
+    if receipt:
+        folded = f"<details><summary>Receipt</summary>\n\n```text\n{receipt}\n```\n\n</details>\n"
     return f"""## {title}
 
 <p class="{wide}">{image}</p>
@@ -102,14 +114,7 @@ def laid_out(
 
     {command}
 
-<details><summary>Receipt</summary>
-
-```text
-{receipt}
-```
-
-</details>
-<details><summary>Scene</summary>
+{folded}<details><summary>Scene</summary>
 
 ```{kind}
 {scene.read_text(encoding="utf-8").rstrip()}

@@ -231,7 +231,7 @@ class Page:
                 return f"not run ({NOT_RUN['activate']})"
             case ["apt", "install", "bubblewrap" | "libseccomp2"]:
                 return f"not run ({NOT_RUN['apt']})"
-            case ["jupyter", "lab", file] if Path(file).is_file():
+            case ["jupyter", "lab", place] if Path(place).exists():
                 return f"not run ({NOT_RUN['jupyter']})"
             case ["python", "-m", "pytest"]:
                 return f"not run ({NOT_RUN['pytest']})"

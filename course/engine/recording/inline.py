@@ -1,5 +1,6 @@
 """A recorded pixel in a notebook: the page of its rays in a frame, and a still where no page is shown."""
 
+from base64 import b64encode
 from html import escape
 from io import BytesIO
 from typing import Any
@@ -34,14 +35,15 @@ _DEPTH, _KIND, _START, _END, _MET = 2, 3, 4, 5, 6
 
 
 def frame(story: Story) -> str:
-    """The page in a frame; a notebook that isn't trusted has none, and shows the text in it."""
+    """The page in a frame; a notebook that isn't trusted drops it and what hides the still, and shows its text."""
     style = "width: 100%; height: 56rem; border: 0"
-    text = f"{story.tree.text}; {story.reason}. A trusted notebook shows the rays."
+    text = f"{story.tree.text}; {story.reason}. In a trusted notebook the rays can be turned."
     # Between single quotes the double ones of all its data needn't be escaped.
     inside = page(story).replace("&", "&amp;").replace("'", "&#39;")
     return (
-        f'<iframe title="Rays of a pixel" style="{style}" srcdoc=\'{inside}\'>'
-        f"{escape(text)}</iframe>"
+        '<div class="course-rays"><style>.course-rays > img { display: none }</style>'
+        f'<iframe title="Rays of a pixel" style="{style}" srcdoc=\'{inside}\'>{escape(text)}</iframe>'
+        f'<img src="data:image/png;base64,{b64encode(still(story)).decode()}" alt="Rays of the pixel"></div>'
     )
 
 

@@ -335,7 +335,7 @@ class Story:
         return "\n".join(_lines(self.tree))
 
     def _repr_html_(self) -> str:
-        """Show the view of the rays in a notebook; one that isn't trusted has no frames, and shows the text in it."""
+        """Show the view of the rays in a notebook; one that isn't trusted shows a still and a text."""
         from course.engine.recording.inline import frame
 
         return frame(self)

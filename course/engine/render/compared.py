@@ -20,6 +20,13 @@ from course.engine.render.picture import Picture
 GAP = 8
 """Pixels between the two where they stand side by side."""
 
+STYLE = """\
+.course-compared { position: relative }
+.course-first { position: absolute; top: 0; left: 0; width: 100%; clip-path: inset(0 calc(100% - var(--cut, 50%)) 0 0) }
+.course-compared > input { display: block !important; width: 100%; margin: .3rem 0 0 }
+"""
+"""What lays one over the other. A notebook that isn't trusted drops it whole, but of an element's style only a part."""
+
 
 @dataclass(frozen=True, repr=False)
 class ComparedPictures:
@@ -69,21 +76,19 @@ class ComparedPictures:
         return file.getvalue()
 
     def _repr_html_(self) -> str:
-        """Show both under a slider; without scripts and styles they stand below each other."""
+        """Show both under a slider; where a notebook isn't trusted they stand below each other, and there is none."""
         a, b = (
             image(codes_of(one), f"{name}: {said_of(one)}", "display: block; margin: 0")
             for name, one in (("A", self.a), ("B", self.b))
         )
-        cut = "clip-path: inset(0 calc(100% - var(--cut, 50%)) 0 0)"
         width = self.a.film.samples.shape[1]
         return (
-            f'<div style="width: {width}px; max-width: 100%; position: relative">'
-            f"<div>{b}</div>"
-            f'<div style="position: absolute; top: 0; left: 0; width: 100%; {cut}">{a}</div>'
+            f'<div class="course-compared" style="width: {width}px; max-width: 100%"><style>{STYLE}</style>'
+            f'<div class="course-first">{a}</div><div>{b}</div>'
             '<input type="range" min="0" max="100" value="50" aria-label="How much of A covers B"'
-            ' style="width: 100%; margin: .3rem 0 0; display: block"'
+            ' style="display: none"'
             " oninput=\"this.parentNode.style.setProperty('--cut', this.value + '%')\">"
-            f"<div>left: A, {escape(said_of(self.a))}; right: B, {escape(said_of(self.b))}</div>"
+            f"<div>A, left or above: {escape(said_of(self.a))}; B: {escape(said_of(self.b))}</div>"
             f"<div>difference {self.error:.3g} (root mean square of radiance): {escape(self.told)}."
             " <code>.difference</code> shows where.</div></div>"
         )

@@ -1,17 +1,18 @@
-"""A module's notebook in a real JupyterLab, in a real browser: run from its first cell to its last."""
+"""A module's notebook in a real JupyterLab, in a real browser: run from its first cell to its last, and untrusted."""
 
+import json
 import os
 import socket
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 from urllib.request import urlopen
 
 import pytest
 
+from course import load_scene, pixel, render
 from course.engine.functions.effects import PROJECT
 from course.school.notebooks.making import notebook_of
 
@@ -28,9 +29,29 @@ def small(text: str) -> str:
     )
 
 
-@pytest.fixture
-def lab(tmp_path: Path) -> Iterator[str]:
-    """The address of a server of its own, with a notebook of solutions in its folder."""
+def foreign() -> str:
+    """A notebook that somebody else has run: a comparison, and the rays of a pixel."""
+    scene = load_scene("soft_shadows")
+    hard, soft = (
+        render(load_scene(name), spp=1, size=(60, 40))
+        for name in ("before/soft_shadows", "soft_shadows")
+    )
+    story = pixel(scene, 30, 30, spp=1, size=(60, 40))
+    outputs = [
+        {"output_type": "display_data", "metadata": {}, "data": {"text/html": it._repr_html_()}}
+        for it in (hard.compare(soft), story)
+    ]
+    cell = {"cell_type": "code", "execution_count": 1, "metadata": {}, "source": "", "id": "a"}
+    return json.dumps(
+        {"cells": [cell | {"outputs": outputs}], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
+    )
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """The address of a server of its own, with a notebook of solutions in its folder, and one of somebody else."""
+    tmp_path = tmp_path_factory.mktemp("lab")
+    (tmp_path / "foreign.ipynb").write_text(foreign(), encoding="utf-8")
     solved = (PROJECT / "solutions" / "motion_blur.py").read_text(encoding="utf-8")
     notebook = notebook_of("motion_blur", solved, PROJECT).decode()
     (tmp_path / "motion_blur.ipynb").write_text(small(notebook), encoding="utf-8")
@@ -123,5 +144,27 @@ def test_a_notebook_of_solutions_is_right_and_shows_what_it_is_about(
             if len(seen) > 3:
                 break
         assert len(seen) > 3
+    finally:
+        page.context.close()
+
+
+def test_a_notebook_that_is_not_trusted_shows_stills(browser: Any, lab: str) -> None:
+    page = browser.new_context(viewport={"width": 1200, "height": 1400}).new_page()
+    page.set_default_timeout(WAIT)
+    try:
+        page.goto(f"{lab}/lab/tree/foreign.ipynb?reset")
+        shown = page.locator(".jp-OutputArea-output img")
+        shown.nth(2).wait_for()
+        assert page.locator(".jp-OutputArea-output iframe").count() == 0
+        boxes = [one.bounding_box() for one in shown.all()]
+        # No picture covers another, and none is blank; a slider that moves nothing isn't there.
+        tops = [box["y"] for box in boxes]
+        ends = [box["y"] + box["height"] for box in boxes]
+        assert all(box["height"] >= 40 and box["width"] >= 60 for box in boxes)
+        assert all(end <= top for end, top in zip(ends, tops[1:], strict=False))
+        assert not page.locator(".jp-OutputArea-output input").first.is_visible()
+        compared, rays = page.locator(".jp-OutputArea-output").all_inner_texts()
+        assert "A, left or above: 1 samples" in compared
+        assert "In a trusted notebook the rays can be turned." in rays
     finally:
         page.context.close()
