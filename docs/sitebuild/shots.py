@@ -68,7 +68,7 @@ def shot(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     planned = pictures.shot(name)
     file = place.address(f"_scenes/{name.replace('/', '-')}.yaml", planned.scene)
     if shown := _beside(place, planned, planned.title):
-        command, said = f"course render scenes/{name}.yaml", "as the scene file says"
+        command, said = f"course render scenes/{name}.yaml", "rendered as the scene file says"
         return laid_out(planned.title, shown, command, "", planned.scene, file, said, "wide large")
     shown, receipt = image(place, planned)
     text = pictures.receipt_text(planned, receipt) if receipt else "not rendered in this build"
