@@ -59,7 +59,9 @@ def start(folder: Path, instructor: bool, notebooks: bool) -> None:
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")
     click.echo(f"    cd {quote(str(folder))}")
     if notebooks:
-        click.echo(f"    jupyter lab     # and there assignments/{WARM_UP}.ipynb; or open the folder in an editor")
+        click.echo(
+            f"    jupyter lab     # and there assignments/{WARM_UP}.ipynb; or open the folder in an editor"
+        )
     else:
         click.echo(f"    course check {WARM_UP}")
     if instructor:

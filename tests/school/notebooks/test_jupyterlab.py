@@ -38,8 +38,8 @@ def foreign() -> str:
     )
     story = pixel(scene, 30, 30, spp=1, size=(60, 40))
     outputs = [
-        {"output_type": "display_data", "metadata": {}, "data": {"text/html": it._repr_html_()}}
-        for it in (hard.compare(soft), story)
+        {"output_type": "display_data", "metadata": {}, "data": {"text/html": html}}
+        for html in (hard.compare(soft)._repr_html_(), story._repr_html_())
     ]
     cell = {"cell_type": "code", "execution_count": 1, "metadata": {}, "source": "", "id": "a"}
     return json.dumps(
