@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError
-from benchmarks.mitsuba_variants import Sensors
+from benchmarks.mitsuba_variants import ROBUST, Sensors
 
 
 def make_mesh(
@@ -47,10 +47,10 @@ class LlvmScene:
     """A scene in Mitsuba's LLVM variant, which ``start_llvm`` must have switched on.
 
     Raises NotExportableError: a light is one by radiance, such as an object.
-    ``exported``: the scene.
+    ``exported``: the scene; ``robust``: in Embree's robust mode, which lets no ray slip between two triangles.
     """
 
-    def __init__(self, exported: Exported) -> None:
+    def __init__(self, exported: Exported, robust: bool = False) -> None:
         for light in exported.lights:
             if "radiance" in light:
                 raise NotExportableError(
@@ -61,7 +61,7 @@ class LlvmScene:
 
         scenes = []
         for number, part in enumerate(exported.parts):
-            content: dict[str, Any] = {"type": "scene"}
+            content: dict[str, Any] = {"type": "scene", ROBUST: robust}
             content["mesh"] = make_mesh(
                 f"part {number}", part.vertices, part.normals, part.triangles
             )

@@ -1,6 +1,6 @@
 """A whole Mitsuba process: read an exported scene, render it once, write the picture.
 
-``python -m benchmarks.mitsuba_process FOLDER llvm|scalar own|native SAMPLER SAMPLES THREADS OUT.exr``
+``python -m benchmarks.mitsuba_process FOLDER llvm|llvm-robust|scalar own|native SAMPLER SAMPLES THREADS OUT.exr``
 """
 
 import sys
@@ -17,8 +17,9 @@ def main(
 ) -> None:
     """Do what the command line says; ``kind``: whether with Mitsuba's own integrators or with ours for it."""
     exported = read(Path(folder))
-    (start_llvm if form == "llvm" else start_scalar)(int(threads))
-    scene = NativeScene(exported) if kind == "native" else LlvmScene(exported)
+    (start_scalar if form == "scalar" else start_llvm)(int(threads))
+    robust = form == "llvm-robust"
+    scene = (NativeScene if kind == "native" else LlvmScene)(exported, robust=robust)
     picture = scene.render(sampler, int(samples), 0)
     import mitsuba
 

@@ -17,7 +17,7 @@ import numpy as np
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
 from benchmarks.mitsuba_llvm import make_mesh
 from benchmarks.mitsuba_phong import register_phong_lobe
-from benchmarks.mitsuba_variants import Sensors
+from benchmarks.mitsuba_variants import ROBUST, Sensors
 from course.engine.formats.yaml import description as d
 from course.engine.formats.yaml.description import rgb
 from course.engine.formats.yaml.loading import load_description
@@ -83,15 +83,16 @@ class NativeScene:
     ----------
     exported : the scene, loaded with ``native_overrides``
     lobes : whether Phong's lobes are a plugin in Python, for the LLVM variant; else they are only as wide
+    robust : whether in Embree's robust mode, which lets no ray slip between two triangles
     """
 
-    def __init__(self, exported: Exported, lobes: bool = False) -> None:
+    def __init__(self, exported: Exported, lobes: bool = False, robust: bool = False) -> None:
         import mitsuba as mi
 
         if lobes:
             register_phong_lobe()
         self._exported = exported
-        self._scene = mi.load_dict(_scene_map(exported, lobes))
+        self._scene = mi.load_dict({**_scene_map(exported, lobes), ROBUST: robust})
         # What moves is rendered as stills.
         self._sensors = Sensors(exported, shutter=0.0)
         self._moving = len(exported.parts) > 1

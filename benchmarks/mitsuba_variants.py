@@ -8,6 +8,9 @@ from typing import Any
 from benchmarks.mitsuba_export import Exported, NotExportableError
 
 OLDEST_LLVM = 17
+ROBUST = "embree_use_robust_intersections"
+"""Of a scene of Mitsuba's: whether it asks Embree for its robust mode, as this renderer does."""
+
 LIBRARY_FOLDERS = (
     "/usr/lib",
     "/usr/lib64",

@@ -37,7 +37,9 @@ FURTHER = (
 )
 """Of the same effects, with flat meshes and what Mitsuba's own integrators can do: ``benchmarks/scenes/peers``."""
 
-FORMS = ("llvm", "scalar")
+FORMS = ("llvm", "llvm-robust", "scalar")
+"""Mitsuba's variants; "llvm-robust" is the first one in Embree's robust mode."""
+
 SAMPLES = (16, 64, 256)
 """A pixel, of Mitsuba's multijitter sampler; its errors are those to reach."""
 
@@ -118,10 +120,9 @@ class Result:
         """The target of whole processes."""
         return self.targets[len(self.targets) // 2]
 
-    def worst(self, name: str) -> float | None:
-        """The largest of our seconds over Mitsuba's, of a way to render."""
-        ratios = [ratio for t in self.targets if (ratio := t.ratio(name)) is not None]
-        return max(ratios, default=None)
+    def ratios(self, name: str) -> list[float]:
+        """Our seconds over Mitsuba's, of a way to render, from the best error to the worst."""
+        return sorted(ratio for t in self.targets if (ratio := t.ratio(name)) is not None)
 
 
 @dataclass(frozen=True)

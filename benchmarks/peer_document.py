@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from statistics import median
 
 from benchmarks.mitsuba_scalar import ALIKE
 from benchmarks.peer_cases import FORMS, QUICK, Effort, Measured, Result
@@ -69,7 +70,7 @@ def tables(results: list[Result]) -> list[Table]:
     measured = [form for form in FORMS if any(r.form == form for r in results)]
     return [
         *(time_table(form, [r for r in results if r.form == form]) for form in measured),
-        worst_table(results),
+        ratio_table(results),
         process_table(results),
         agreement_table(results),
     ]
@@ -98,15 +99,14 @@ def time_table(form: str, results: list[Result]) -> Table:
     )
 
 
-def worst_table(results: list[Result]) -> Table:
-    """The worst row of each scene."""
+def ratio_table(results: list[Result]) -> Table:
+    """The worst, the middle and the best error of each scene."""
     names = _ways(results)
-    rows = []
-    for r in results:
-        ratios = [r.worst(name) for name in names]
-        cells = ["-" if ratio is None else f"{ratio:.2f}" for ratio in ratios]
-        rows.append((f"{_effect(r)}, {r.form}", *cells))
-    return Table("the worst of a scene's errors: ours / Mitsuba's", ("scene", *names), tuple(rows))
+    rows = [
+        (f"{_effect(r)}, {r.form}", *(_spread(r.ratios(name)) for name in names)) for r in results
+    ]
+    title = "ours / Mitsuba's: the worst, the middle and the best of a scene's errors"
+    return Table(title, ("scene", *names), tuple(rows))
 
 
 def process_table(results: list[Result]) -> Table:
@@ -148,6 +148,13 @@ def agreement_table(results: list[Result]) -> Table:
 
 def _effect(r: Result) -> str:
     return f"{r.effect} ≈" if r.alike else r.effect
+
+
+def _spread(ratios: list[float]) -> str:
+    """The worst, the middle and the best of sorted ratios."""
+    if not ratios:
+        return "-"
+    return " · ".join(f"{r:.2f}" for r in dict.fromkeys((ratios[-1], median(ratios), ratios[0])))
 
 
 def _beside(ours: float | None, theirs: float) -> str:

@@ -6,7 +6,8 @@ linear radiance. At each, the fastest of all its samplers counts. Each program i
 picture, so that a difference between the two sets no floor. Times are of warm renderers and rendering alone, and then
 of whole processes.
 
-docs/peers.md says what the forms "llvm" and "scalar" are. Needs `pip install .[peers]`, and LLVM 17 for the former.
+docs/peers.md says what the forms "llvm", "llvm-robust" and "scalar" are. Needs `pip install .[peers]`, LLVM 17 for the
+former two, and `npm` to fetch two meshes the first time.
 """
 
 import json
@@ -116,18 +117,23 @@ class Case:
     native: bool
 
     @property
+    def robust(self) -> bool:
+        """Whether Mitsuba asks for Embree's robust mode."""
+        return self.form == "llvm-robust"
+
+    @property
     def name(self) -> str:
         """For files."""
         return f"{self.effect}_{self.form}"
 
     def peer(self) -> LlvmScene | NativeScene:
         """The scene in Mitsuba, in the variant that is measured."""
-        return self._loaded(start_llvm if self.form == "llvm" else start_scalar)
+        return self._loaded(start_scalar if self.form == "scalar" else start_llvm)
 
     def _loaded(self, start: Callable[[int], None]) -> LlvmScene | NativeScene:
         exported = export(self.scene, *SIZE)
         start(self.threads)
-        return NativeScene(exported) if self.native else LlvmScene(exported)
+        return (NativeScene if self.native else LlvmScene)(exported, robust=self.robust)
 
     def our_reference(self) -> Converged:
         """Our converged picture."""
@@ -173,7 +179,7 @@ class Case:
 
     def _key(self) -> str:
         """A hash of all that Mitsuba's pictures depend on."""
-        digest = sha256(f"{self.effort} {version('mitsuba')} {self.native}".encode())
+        digest = sha256(f"{self.effort} {version('mitsuba')} {self.native} {self.robust}".encode())
         for path in sorted(Path(__file__).parent.glob("mitsuba_*.py")):
             digest.update(path.read_bytes())
         add_arrays(digest, export(self.scene, *SIZE))
@@ -468,9 +474,9 @@ def main(
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     effort = QUICK if quick else Effort()
     forms = tuple(forms) or FORMS
-    if "llvm" in forms and find_llvm() is None:
+    if {"llvm", "llvm-robust"} & {*forms} and find_llvm() is None:
         click.echo("no LLVM that Mitsuba can use was found: scalar only", err=True)
-        forms = tuple(form for form in forms if form != "llvm")
+        forms = tuple(form for form in forms if form == "scalar")
     about = versions(threads)
     results = []
     for effect in tuple(effects) or (*EFFECTS, *FURTHER):
