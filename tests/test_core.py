@@ -41,6 +41,9 @@ def note(frame, event, argument):
     if event == "call" and frame.f_code.co_name != "<module>":
         files.add(frame.f_code.co_filename)
 from course import load_scene, render
+from course.engine.render import threads
+# Of a render that takes longer it asks whether a function never comes back.
+threads.LOOK = 600
 scene = load_scene("scenes/soft_shadows.yaml")
 sys.setprofile(note)
 threading.setprofile(note)
