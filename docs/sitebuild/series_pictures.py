@@ -1,5 +1,6 @@
 """The pictures of a series, rendered once and kept under a hash of all that decides them."""
 
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -7,7 +8,7 @@ import click
 import yaml
 from PIL import Image
 
-from course import render
+from course import Picture, render
 from course.benchmarking.references import scene_hash
 from course.engine.formats.yaml.document import spell
 from course.engine.formats.yaml.loading import Loaded, load_description
@@ -20,6 +21,12 @@ from sitebuild.series_file import PATTERN, SAMPLES, Series
 KEPT = PROJECT / "out" / "docs" / "series"
 
 QUALITY = 85
+
+TONE = ("film", "tone")
+"""Keys that decide how a picture is shown, and not what its rays bring."""
+
+State = tuple[Path, int, str]
+"""A scene file, when it was changed, and what a step overrides, as text."""
 
 
 def picture(series: Series, step: tuple[int, ...], kept: Path = KEPT) -> Path:
@@ -44,13 +51,7 @@ def picture(series: Series, step: tuple[int, ...], kept: Path = KEPT) -> Path:
     image = kept / f"{scene_hash(loaded, Effects(), **settings)}.webp"
     if not image.is_file():
         click.echo(f"rendering scenes/{series.scene}.yaml: {caption(series, step)}", err=True)
-        made = render(
-            _compiled(*state),
-            size=series.size,
-            spp=samples,
-            sampler=settings["sampler"],
-            threads=pictures.THREADS,
-        )
+        made = _rendered(state, series.size, samples, settings["sampler"])
         webp.save(webp.on_screen(made), image, QUALITY)
     return image
 
@@ -117,6 +118,23 @@ def _text(series: Series, step: tuple[int, ...]) -> str:
 
 def _overrides(text: str) -> dict[tuple[str | int, ...], object]:
     return {tuple(key): value for key, value in yaml.safe_load(text)}
+
+
+def _rendered(state: State, size: tuple[int, int], samples: int, sampler: str) -> Picture:
+    """A step's picture; steps that differ in tone mapping alone share their rays."""
+    path, changed, text = state
+    values = _overrides(text)
+    rays = [[list(key), value] for key, value in values.items() if key[:2] != TONE]
+    if len(rays) == len(values):
+        return _of_rays(state, size, samples, sampler)
+    film = _of_rays((path, changed, yaml.safe_dump(rays)), size, samples, sampler).film
+    return replace(_of_rays(state, size, 1, sampler), film=film)
+
+
+@lru_cache(maxsize=2)
+def _of_rays(state: State, size: tuple[int, int], samples: int, sampler: str) -> Picture:
+    scene = _compiled(*state)
+    return render(scene, size=size, spp=samples, sampler=sampler, threads=pictures.THREADS)
 
 
 @lru_cache(maxsize=64)

@@ -12,15 +12,18 @@ import yaml
 from click.testing import CliRunner
 from PIL import Image
 
+from course import Picture, Scene, render
 from course.base.errors import CourseError
 from course.cli.main import commands
 from course.engine.formats.yaml.loading import load_description
+from course.engine.formats.yaml.overriding import Overrides
 from course.engine.functions.effects import PROJECT
+from course.engine.scene.scene import load_variant
 from tests.browser import tab_to, untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
-from sitebuild import pictures, series_file, series_pictures
+from sitebuild import pictures, series_file, series_pictures, webp
 
 SERIES = series_file.read(series_file.FILE.read_text(encoding="utf-8"))
 
@@ -55,6 +58,17 @@ lamp:
   alt: "A lamp of radius {radius}."
   sliders:
     - {name: radius, key: [lights, 0, radius], values: [0, 0.5, 1.0], unit: world units}
+"""
+
+TONES = """\
+tones:
+  scene: ball
+  size: [40, 10]
+  samples: 4
+  title: A ball
+  alt: "A ball of key {key}."
+  sliders:
+    - {name: key, key: [film, tone, key], values: [0.1, 0.4]}
 """
 
 
@@ -174,6 +188,32 @@ def test_a_picture_is_rendered_once(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert series_pictures.picture(lamp, (1,), tmp_path) == path
     with pytest.raises(TypeError):
         series_pictures.picture(lamp, (2,), tmp_path)
+
+
+def test_steps_of_tone_share_their_rays(
+    scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    toned = SCENE.replace("height: 300}", "height: 300, tone: {key: 0.2, burn: 1}}")
+    scene.write_text(toned, encoding="utf-8")
+    series = series_file.read(TONES)["tones"]
+    asked: list[int] = []
+
+    def counted(scene: Scene, **settings: Any) -> Picture:
+        asked.append(settings["spp"])
+        return render(scene, **settings)
+
+    monkeypatch.setattr(series_pictures, "render", counted)
+    series_pictures._of_rays.cache_clear()
+    for place, key in enumerate((0.1, 0.4)):
+        with Image.open(series_pictures.picture(series, (place,), tmp_path / "kept")) as kept:
+            shown = kept.convert("RGB").tobytes()
+        values: Overrides = {("film", "tone", "key"): key}
+        made = render(load_variant(scene, values), size=(40, 10), spp=4, threads=1)
+        file = tmp_path / "apart.webp"
+        webp.save(webp.on_screen(made), file, series_pictures.QUALITY)
+        with Image.open(file) as apart:
+            assert shown == apart.convert("RGB").tobytes()
+    assert asked == [4, 1, 1]
 
 
 def test_blank_pictures_differ(tmp_path: Path) -> None:
