@@ -7,6 +7,7 @@ from typing import Any
 from PIL import Image
 
 from course.base.texts import count
+from course.engine.formats.yaml.loading import load_description
 from sitebuild import pictures
 from sitebuild.place import Place
 
@@ -68,7 +69,9 @@ def shot(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     planned = pictures.shot(name)
     file = place.address(f"_scenes/{name.replace('/', '-')}.yaml", planned.scene)
     if shown := _beside(place, planned, planned.title):
-        command, said = f"course render scenes/{name}.yaml", "rendered as the scene file says"
+        samples = load_description(planned.scene).description.sampler.samples
+        command = f"course render scenes/{name}.yaml"
+        said = f"{count(samples, 'sample')} a pixel, as the scene file says"
         return laid_out(planned.title, shown, command, "", planned.scene, file, said, "wide large")
     shown, receipt = image(place, planned)
     text = pictures.receipt_text(planned, receipt) if receipt else "not rendered in this build"
