@@ -334,7 +334,7 @@
         const item = make("li", { class: called.has(`${one.module}.${one.name}`) ? "called" : "", "data-function": `${one.module}.${one.name}`, "data-state": text },
           make("div", {}, make("code", { class: "name" }, one.name), make("span", { class: `state ${text.replaceAll(" ", "-")}` }, text)));
         if (one.title) {
-          item.append(make("p", { class: "hint" }, `${one.title}: ${one.found}.`), make("p", { class: "hint" }, make("code", {}, one.again)));
+          item.append(make("p", { class: "hint" }, `${one.title}: ${one.found}${/[.?!]$/.test(one.found) ? "" : "."}`), make("p", { class: "hint" }, make("code", {}, one.again)));
         }
         return item;
       })));
