@@ -1,6 +1,7 @@
 """The page of a pixel's rays: small, whole, and for everybody."""
 
 import itertools
+from base64 import b64decode
 from dataclasses import replace
 from html import unescape
 from pathlib import Path
@@ -14,6 +15,7 @@ from course.cli.main import commands
 from course.engine.core.types import Floats64
 from course.engine.functions.effects import PROJECT
 from course.engine.recording import scenery, view
+from course.engine.recording.inline import still
 from course.engine.recording.pair import pair_data
 from course.engine.recording.view import page, rays_data, view_data
 from tests.browser import untroubled
@@ -126,10 +128,13 @@ def test_the_command_writes_the_page(tmp_path: Path) -> None:
 
 def test_a_notebook_shows_the_view(story: Story) -> None:
     shown = story._repr_html_()
-    frame, inside = shown.partition("srcdoc='")[2].removesuffix("</iframe>").rsplit("'>", 1)
+    framed, _, beside = shown.partition("srcdoc='")[2].partition("</iframe>")
+    frame, inside = framed.rsplit("'>", 1)
     assert "'" not in frame
     assert unescape(frame) == page(story)
-    # Jupyter takes the frame away, and leaves what stands in it, where a notebook isn't trusted.
+    # Jupyter takes the frame away, and leaves what stands in it and beside it, where a notebook isn't trusted.
+    data = beside.partition("data:image/png;base64,")[2].partition('"')[0]
+    assert b64decode(data) == still(story)
     assert "<" not in inside
     assert story.tree.text in unescape(inside)
     assert story.reason in unescape(inside)
