@@ -28,25 +28,22 @@ class ResultContract:
     ----------
     name, shape : as the contract has them
     dtype : None for that of the batch arguments; a kind ("int", "floating") where any of it does
-    finite : whether it is, for every legal argument
+    endless : "infinite" where infinity is legal, "unbounded" where both infinities are; "" where it is finite
     unit : whether it is directions of length 1
-    signed : of one that needn't be finite, whether both infinities are legal, and not only the one above all numbers
     below : of whole numbers the size or number that they are below, from 0 on; "" where any will do
     """
 
     name: str
     shape: str
     dtype: Any = None
-    finite: bool = True
+    endless: str = ""
     unit: bool = False
-    signed: bool = False
     below: str = ""
 
     @cached_property
     def kind(self) -> str:
         """Condition for results: "" (floating and finite), "unit", "infinite", "unbounded", "whole" or "bool"."""
-        endless = "unbounded" if self.signed else "infinite"
-        return "unit" if self.unit else _KINDS.get(self.dtype, "" if self.finite else endless)
+        return "unit" if self.unit else _KINDS.get(self.dtype, self.endless)
 
     @cached_property
     def sizes(self) -> tuple[Size, ...]:
@@ -110,9 +107,8 @@ def parsed(text: str) -> Contract:
                 name.strip(),
                 " ".join(word for word in words if word not in said),
                 next((DTYPES[word] for word in words if word in DTYPES), None),
-                not said & {"infinite", "unbounded"},
+                next((word for word in words if word in ("infinite", "unbounded")), ""),
                 "unit" in said,
-                "unbounded" in said,
                 below[6:],
             )
         )

@@ -237,14 +237,18 @@ def guarded(name: str, function: Callable[..., Any], file: Path) -> Callable[...
 
 
 _DTYPES = {
-    "": ("float32", "fiu"),
+    **dict.fromkeys(("", "infinite", "unbounded"), ("float32", "fiu")),
     "unit": ("float32 unit directions", "fiu"),
-    "infinite": ("float32", "fiu"),
-    "unbounded": ("float32", "fiu"),
     "whole": ("whole numbers", "iu"),
     "bool": ("bool", "b"),
 }
 """The name of each kind, and the letters of its dtypes in NumPy."""
+
+_NONE: dict[str, Callable[[Any], Any]] = {
+    "infinite": lambda a: ~(a > -np.inf),
+    "unbounded": np.isnan,
+}
+"""Of kinds that have no end: which of an array's numbers are wrong."""
 
 
 def _settled(
@@ -269,10 +273,8 @@ def _right(array: Any, kind: str) -> bool:
         # Both are not numbers where any is none, and no comparison with them is true.
         low, high = squares.min(), squares.max()
         return bool(low >= SHORTEST and high <= LONGEST)
-    if kind == "infinite":
-        return bool(array.min() > -np.inf)
-    if kind == "unbounded":
-        return not np.isnan(array.min())
+    if kind in _NONE:
+        return not _NONE[kind](array.min())
     with np.errstate(over="ignore", invalid="ignore"):
         # One pass takes two thirds of the time of two. Where the sum is large, each number is looked at.
         total = np.einsum("i->", array.reshape(-1))
@@ -288,9 +290,7 @@ def _wrong(array: Any, kind: str) -> str:
         return (
             f"whose column {column} is ({numbers}), of length {length[column]:g}; expected length 1"
         )
-    bad = np.isnan(array)
-    if kind != "unbounded":
-        bad |= np.isneginf(array) if kind == "infinite" else np.isinf(array)
+    bad = _NONE.get(kind, lambda a: ~np.isfinite(a))(array)
     expected = "finite numbers"
     if not bad.any():
         bad, expected = np.abs(array) >= LARGEST, f"numbers below {LARGEST:g}"

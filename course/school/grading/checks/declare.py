@@ -393,7 +393,7 @@ def _looked(
         raise Failure(
             f"{result.name} of dtype {wanted or 'floating'}", f"{value.dtype}", slip="other-dtype"
         )
-    if result.finite and not np.isfinite(value).all():
+    if not result.endless and not np.isfinite(value).all():
         index = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
         raise Failure(f"{result.name} to be finite", f"{value[index]}", f"at index {index}")
     # Truth values are taken for the numbers 0 and 1, which can be subtracted; whole numbers for what indexes.

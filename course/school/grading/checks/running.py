@@ -244,7 +244,7 @@ class Gate:
         else:
             shapes = (None if named else declared.shapes(arguments)) or [None] * count
             for part, result, shape in zip(parts, declared.results, shapes, strict=True):
-                if not wrong and (wrong := _wrong(part, shape, result.finite)):
+                if not wrong and (wrong := _wrong(part, shape, not result.endless)):
                     example = column_of(declared, part, arguments)
                     remedy = of_shape(part, shape)
         if wrong:
