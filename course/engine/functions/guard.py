@@ -244,11 +244,11 @@ _DTYPES = {
 }
 """The name of each kind, and the letters of its dtypes in NumPy."""
 
-_NONE: dict[str, Callable[[Any], Any]] = {
+_ILLEGAL: dict[str, Callable[[Any], Any]] = {
     "infinite": lambda a: ~(a > -np.inf),
     "unbounded": np.isnan,
 }
-"""Of kinds that have no end: which of an array's numbers are wrong."""
+"""Which numbers of an array are wrong, of the kinds that may have infinities."""
 
 
 def _settled(
@@ -273,8 +273,8 @@ def _right(array: Any, kind: str) -> bool:
         # Both are not numbers where any is none, and no comparison with them is true.
         low, high = squares.min(), squares.max()
         return bool(low >= SHORTEST and high <= LONGEST)
-    if kind in _NONE:
-        return not _NONE[kind](array.min())
+    if kind in _ILLEGAL:
+        return not _ILLEGAL[kind](array.min())
     with np.errstate(over="ignore", invalid="ignore"):
         # One pass takes two thirds of the time of two. Where the sum is large, each number is looked at.
         total = np.einsum("i->", array.reshape(-1))
@@ -290,7 +290,7 @@ def _wrong(array: Any, kind: str) -> str:
         return (
             f"whose column {column} is ({numbers}), of length {length[column]:g}; expected length 1"
         )
-    bad = _NONE.get(kind, lambda a: ~np.isfinite(a))(array)
+    bad = _ILLEGAL.get(kind, lambda a: ~np.isfinite(a))(array)
     expected = "finite numbers"
     if not bad.any():
         bad, expected = np.abs(array) >= LARGEST, f"numbers below {LARGEST:g}"

@@ -43,7 +43,7 @@ def frame(story: Story) -> str:
     return (
         '<div class="course-rays"><style>.course-rays > img { display: none }</style>'
         f'<iframe title="Rays of a pixel" style="{style}" srcdoc=\'{inside}\'>{escape(text)}</iframe>'
-        f'<img src="data:image/png;base64,{b64encode(still(story)).decode()}" alt="Rays of the pixel"></div>'
+        f'<img src="data:image/png;base64,{b64encode(story.still).decode()}" alt="Rays of the pixel"></div>'
     )
 
 

@@ -340,11 +340,16 @@ class Story:
 
         return frame(self)
 
-    def _repr_png_(self) -> bytes:
-        """Show the rays where no page is shown."""
+    @cached_property
+    def still(self) -> bytes:
+        """The rays as a PNG, for where no page is shown; drawn once, for a notebook asks for it in two forms."""
         from course.engine.recording.inline import still
 
         return still(self)
+
+    def _repr_png_(self) -> bytes:
+        """Show the still."""
+        return self.still
 
     def to_dict(self) -> dict[str, Any]:
         """All that is known, for programs: numbers, strings and lists."""

@@ -34,7 +34,10 @@ COST = 8.0
 
 
 STEPS = (0.7548776662466927, 0.5698402909980532)
-"""From each ray of a hit to the next, around the unit square: M. Roberts's sequence, as of ``numbers.spread``."""
+"""From each ray of a hit to the next, around the unit square.
+
+M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+"""
 
 
 @lru_cache(maxsize=64)

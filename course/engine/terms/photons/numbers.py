@@ -7,12 +7,10 @@ import numpy as np
 from course.engine.core.rays import Draws
 from course.engine.core.samplers import Block, Sampler
 from course.engine.core.types import Floats32, Indices, Words
-from course.engine.terms.samplers.sobol import BITS, DIRECTIONS, owen_scrambled
+from course.engine.terms.samplers.sobol import BITS, DIRECTIONS, TO_UNIT, owen_scrambled
 
 PHOTONS = 0x70686F74
 """Keeps the generators of photons apart from those of paths with the same seed."""
-
-_TO_UNIT = np.float32(2.0**-24)
 
 
 class PhotonSampler(Sampler):
@@ -50,12 +48,12 @@ def spread(seed: int, number: int, first: int, n: int, width: int) -> Floats32:
     """
     rng = np.random.default_rng((PHOTONS, seed, number))
     seeds = rng.integers(0, 2**32, (width, 1), np.uint32)
-    words = owen_scrambled(sobol_words(first, n, width), seeds)
-    u: Floats32 = ((words >> np.uint32(8)) * _TO_UNIT).astype(np.float32)
+    words = owen_scrambled(sobol_points(first, n, width), seeds)
+    u: Floats32 = ((words >> np.uint32(8)) * TO_UNIT).astype(np.float32)
     return u
 
 
-def sobol_words(first: int, n: int, width: int) -> Words:
+def sobol_points(first: int, n: int, width: int) -> Words:
     """Points (width, n) uint32 of the sequence from ``first`` on, as 32-bit fractions; up to 7 dimensions."""
     parts = []
     while n > 0:
@@ -100,11 +98,10 @@ def _directions(polynomial: int, first: tuple[int, ...]) -> list[int]:
 
 _DIRECTIONS = np.array(
     [
-        DIRECTIONS[0],
+        *DIRECTIONS,
         *(
             _directions(polynomial, first)
             for polynomial, first in (
-                (0b11, (1,)),
                 (0b111, (1, 3)),
                 (0b1011, (1, 3, 1)),
                 (0b1101, (1, 1, 1)),

@@ -5,7 +5,7 @@ behind a straight edge, seen from one point by all pixels: each sample finds it 
 samples has the variance p (1 - p) / n. And nothing at all: black.
 
 Where numbers are compared statistically, the room they have is stated with its distance in standard errors; 6 of them,
-with Student's t for the 39 degrees of freedom of 40 seeds, are exceeded by chance once in 2e6.
+with Student's t for the 99 degrees of freedom of 100 seeds, are exceeded by chance once in 3e7.
 """
 
 import math
@@ -31,7 +31,7 @@ from course.engine.render.adaptive.film import PARTS, AdaptiveFilm
 from course.engine.render.adaptive.pixel_groups import TwinGroup
 from course.engine.render.adaptive.rounds import RoundGroups, render_adaptively
 from tests.engine.render.clock import Clock
-from tests.lengths import LONG, fewer
+from tests.lengths import fewer
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]
@@ -617,10 +617,6 @@ def test_scenes_of_the_course_need_fewer_samples_for_the_same_error(name: str, g
 # --- Bias -----------------------------------------------------------------------------------------
 
 
-SEEDS = 100 if LONG else 40
-"""Of pictures whose mean is compared."""
-
-
 def block_means(
     scene: Scene, seeds: int, side: int, **options: Any
 ) -> tuple[Array, NDArray[np.float64]]:
@@ -640,9 +636,9 @@ def test_blocks_have_the_right_brightness_where_samples_find_the_light(
 ) -> None:
     error = {"sobol": 0.03, "random": 0.06}[sampler]
     mean, deviation = block_means(
-        lamp(make_scene, 0.3), SEEDS, 8, error=error, spp=1024, sampler=sampler
+        lamp(make_scene, 0.3), 100, 8, error=error, spp=1024, sampler=sampler
     )
-    assert (deviation < 0.03 / math.sqrt(SEEDS)).all()
+    assert (deviation < 0.003).all()
     assert (np.abs(mean - 0.3) < 6 * deviation + 1e-4).all()
 
 
@@ -652,10 +648,10 @@ def test_blocks_have_the_right_brightness_along_an_edge(
 ) -> None:
     """Pixels that the edge cuts in halves, and such where only few samples find the other side."""
     mean, deviation = block_means(
-        half_plane(make_scene), SEEDS, 8, error=error, spp=1024, sampler=sampler
+        half_plane(make_scene), 100, 8, error=error, spp=1024, sampler=sampler
     )
     truth = white_share().reshape(SIZE // 8, 8, SIZE // 8, 8).mean(axis=(1, 3))
-    assert (deviation < 5e-3 / math.sqrt(SEEDS)).all()
+    assert (deviation < 5e-4).all()
     assert (np.abs(mean - truth) < 6 * deviation + 1e-6).all()
 
 
