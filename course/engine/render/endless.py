@@ -5,7 +5,7 @@ import sys
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from threading import Thread
+from threading import Thread, get_ident
 from time import monotonic
 from types import FrameType
 
@@ -41,7 +41,7 @@ class LongCalls:
 
         ``now``: [``time.monotonic()``]
         """
-        frames, before = sys._current_frames(), self._seen
+        frames, before = _frames(), self._seen
         self._seen = {}
         for number in [thread.ident or 0 for thread in threads]:
             call, _ = call_in(frames.get(number))
@@ -69,7 +69,7 @@ class LongCalls:
 def end_endless(threads: Sequence[Thread]) -> None:
     """Wait for threads to end; those whose function goes on are interrupted in it, which is told by its name."""
     _await(threads, PATIENCE)
-    frames = sys._current_frames()
+    frames = _frames()
     asked = [asked_in(frames.get(thread.ident or 0)) for thread in threads if thread.is_alive()]
     for said in dict.fromkeys(filter(None, asked)):
         warnings.warn(f"{said} was still at work, and was ended", CourseWarning, stacklevel=3)
@@ -82,6 +82,16 @@ def end_endless(threads: Sequence[Thread]) -> None:
                     ctypes.c_ulong(thread.ident), ctypes.py_object(KeyboardInterrupt)
                 )
         _await(threads, AGAIN)
+
+
+def _frames() -> dict[int, FrameType]:
+    """Where the other threads are, by their numbers.
+
+    Who holds its own frame, too, holds itself: all that the others' frames had would stay until garbage is collected.
+    """
+    frames = sys._current_frames()
+    del frames[get_ident()]
+    return frames
 
 
 def _await(threads: Sequence[Thread], seconds: float) -> bool:

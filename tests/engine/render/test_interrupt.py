@@ -1,11 +1,14 @@
 """Ctrl-C: the picture so far comes back."""
 
+import gc
 import signal
 import warnings
+import weakref
 from contextlib import suppress
 from pathlib import Path
 from threading import Event, Thread
 from time import monotonic
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,6 +69,29 @@ def test_a_function_that_does_not_come_back_is_told_while_one_waits() -> None:
     assert "still in supersampling.resolve (supersampling.py:" in str(told[0].message)
     over.set()
     thread.join()
+
+
+def test_a_look_at_threads_keeps_nothing_of_theirs() -> None:
+    """Not until garbage is collected, either: renders of the command line kept 50 MB a second so."""
+    held, done, kept = Event(), Event(), list[weakref.ref[Any]]()
+
+    def work() -> None:
+        rays = np.zeros(1000)
+        kept.append(weakref.ref(rays))
+        held.set()
+        done.wait()
+
+    thread = Thread(target=work)
+    gc.disable()
+    try:
+        thread.start()
+        held.wait()
+        LongCalls().look([thread], monotonic())
+        done.set()
+        thread.join()
+        assert kept[0]() is None
+    finally:
+        gc.enable()
 
 
 def test_an_error_in_a_thread_reaches_the_caller(every_stage: EveryStage, tmp_path: Path) -> None:
