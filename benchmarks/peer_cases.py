@@ -157,10 +157,9 @@ def keep_cases(new: Iterable[Measured], path: Path) -> list[Measured]:
     cases = {each.case: each for each in (*read_cases(path), *new)}
     names = [(form, effect) for form in FORMS for effect in (*EFFECTS, *FURTHER)]
     ordered = [cases[name] for name in names if name in cases]
-    text = msgspec.json.format(
-        msgspec.json.encode([rounded_deeply(asdict(case)) for case in ordered])
-    )
-    write_text(path, text.decode() + "\n")
+    # A line for each case: a new measurement changes its own line, and the file stays small.
+    lines = [msgspec.json.encode(rounded_deeply(asdict(case))).decode() for case in ordered]
+    write_text(path, "[\n" + ",\n".join(lines) + "\n]\n")
     return read_cases(path)
 
 
