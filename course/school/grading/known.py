@@ -74,7 +74,7 @@ def known(module: str, folder: Path = PROJECT / "solutions") -> list[KnownSubmis
     )
     edited = folder / "wrong" / f"{module}.yaml"
     if edited.exists():
-        wrong += _edited(edited, module, solution)
+        wrong += _edited(edited, edited.read_text(encoding="utf-8"), module, solution)
     return [*right, *sorted(wrong, key=lambda each: each.name)]
 
 
@@ -93,13 +93,14 @@ class _Edited(Struct, forbid_unknown_fields=True):
     also: str = ""
 
 
-def _edited(path: Path, module: str, solution: str) -> list[KnownSubmission]:
-    """The submissions of a module that are its solution with lines changed."""
+@lru_cache(maxsize=32)
+def _edited(path: Path, text: str, module: str, solution: str) -> tuple[KnownSubmission, ...]:
+    """The submissions of a module that are its solution with lines changed; a module is asked for many times."""
     # Marks of what is left out in stubs stand between lines that belong together.
     plain = [line for line in solution.split("\n") if not line.lstrip().startswith("###")]
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        document = yaml.load(path.read_text(encoding="utf-8"), loader)
+        document = yaml.load(text, loader)
         functions = convert(document, dict[str, dict[str, _Edited]])
     except (ValidationError, yaml.YAMLError) as error:
         raise CourseError(f"{path}: {error}") from error
@@ -115,7 +116,7 @@ def _edited(path: Path, module: str, solution: str) -> list[KnownSubmission]:
             source = "\n".join([*lines, each.also])
             told = function, each.caught_by, each.mistake, each.says
             found.append(KnownSubmission(module, name, False, each.about, source, *told))
-    return found
+    return tuple(found)
 
 
 @lru_cache(maxsize=4)
