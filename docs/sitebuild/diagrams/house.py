@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from itertools import permutations, product
 from pathlib import Path
 
@@ -15,13 +16,16 @@ WIDTH, FLOOR, ROOM, MARGIN = 350, 46, 24, 14
 Uses = dict[str, set[str]]
 
 
-def imports(path: Path) -> Iterator[str]:
-    """The dotted names that a file of the course imports from the course."""
+@cache
+def imports(path: Path) -> frozenset[str]:
+    """The dotted names that a file of the course imports from the course; the house and its wings ask for the same."""
+    found: list[str] = []
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and str(node.module).startswith("course."):
-            yield str(node.module)
+        if isinstance(node, ast.ImportFrom):
+            found.append(str(node.module))
         elif isinstance(node, ast.Import):
-            yield from (each.name for each in node.names if each.name.startswith("course."))
+            found += [each.name for each in node.names]
+    return frozenset(name for name in found if name.startswith("course."))
 
 
 def uses(wing: str) -> Uses:
@@ -82,18 +86,20 @@ def wide(room: str) -> float:
 def arranged(rooms: Uses) -> dict[str, float]:
     """Which share of the floor's width lies to the left of each room's middle, so that arrows cross few rooms."""
     levels = floors(rooms)
-    arrows = sorted(direct(rooms))
     height = {room: level for level, floor in enumerate(levels) for room in floor}
+    # Of each arrow: the rooms between its ends, where it is at their height, and how near it may come.
+    arrows = [
+        (upper, lower, [*_between(height, upper, lower)]) for upper, lower in sorted(direct(rooms))
+    ]
 
     def badness(middle: dict[str, float]) -> tuple[int, float, float]:
         crossed, slanted = 0, 0.0
-        for upper, lower in arrows:
-            slanted += abs(middle[upper] - middle[lower])
-            for room, level in height.items():
-                share = (height[upper] - level) / (height[upper] - height[lower])
-                x = middle[upper] + share * (middle[lower] - middle[upper])
-                between = height[lower] < level < height[upper]
-                crossed += between and abs(x - middle[room]) * WIDTH < wide(room) / 2 + MARGIN
+        for upper, lower, passed in arrows:
+            start, slant = middle[upper], middle[lower] - middle[upper]
+            slanted += abs(slant)
+            crossed += sum(
+                abs(start + share * slant - middle[room]) < near for room, share, near in passed
+            )
         return crossed, slanted, abs(sum(middle.values()) - len(middle) / 2)
 
     ways = (
@@ -107,6 +113,13 @@ def arranged(rooms: Uses) -> dict[str, float]:
         {room: x for floor in chosen for room, x in floor.items()} for chosen in product(*ways)
     )
     return min(together, key=badness)
+
+
+def _between(height: dict[str, int], upper: str, lower: str) -> Iterator[tuple[str, float, float]]:
+    for room, level in height.items():
+        if height[lower] < level < height[upper]:
+            share = (height[upper] - level) / (height[upper] - height[lower])
+            yield room, share, (wide(room) / 2 + MARGIN) / WIDTH
 
 
 def draw(canvas: Canvas, rooms: Uses, bottom: float, tall: dict[str, float]) -> None:
