@@ -26,7 +26,7 @@ from sitebuild.place import Place
 DOCS = Path(__file__).parents[1]
 
 DRAWN = (
-    *("before_after", "picture", "series", "mistakes", "shot", "heat_map", "metu_shot"),
+    *("before_after", "picture", "rays", "series", "mistakes", "shot", "heat_map", "metu_shot"),
     *("series_grid", "radiosity_flight", "radiosity_shot", "radiosity_steps"),
     *("radiosity_scrubber", "cards", "quiz"),
 )

@@ -8,7 +8,7 @@ from course.engine.functions.effects import PROJECT
 DOCS = PROJECT / "docs"
 ROOT = PROJECT / "out" / "docs"
 
-FOLDERS = ("keys", "mistakes", "notebooks", "pictures", "series")
+FOLDERS = ("keys", "mistakes", "notebooks", "pictures", "rays", "series")
 """Of `ROOT`, those of files that are kept under a hash of all that decides them."""
 
 

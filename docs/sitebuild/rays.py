@@ -1,13 +1,21 @@
 """The rays of a pixel in their scene, as `course pixel --html` writes them."""
 
+import re
 from functools import cache
-from html import escape
+from hashlib import sha256
+from pathlib import Path
 
 from course import pixel
+from course.base.atomic import write_text
 from course.base.errors import CourseError
+from course.benchmarking.references import scene_hash
+from course.engine.formats.yaml.loading import load_description
+from course.engine.functions.effects import PACKAGE, PROJECT, Effects
 from course.engine.recording.view import page
 from sitebuild.pictures import scene_path
 from sitebuild.place import Place
+
+KEPT = PROJECT / "out" / "docs" / "rays"
 
 FEW = 4
 """Samples of a pixel where pictures are left blank."""
@@ -24,18 +32,40 @@ def rays(place: Place, name: str, words: str) -> str:
     x, _, y = words.partition(",")
     if not (x.isdigit() and y.isdigit()):
         raise CourseError(f"{words!r} is not a pixel: expected X,Y")
-    text, title = _page(name, int(x), int(y), FEW if place.blank else None)
-    file = place.made / f"rays-{name.replace('/', '-')}-{x}-{y}.html"
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(text, encoding="utf-8")
-    address = place.address(f"rays/{file.name}", file)
+    shown = f"rays-{name.replace('/', '-')}-{x}-{y}.html"
+    at = name, int(x), int(y)
+    file = _written(place.made / shown, *at, FEW) if place.blank else view(*at)
+    (title,) = re.findall("<title>(.*?)</title>", file.read_text(encoding="utf-8"))
+    address = place.address(f"rays/{shown}", file)
     return (
-        f'<iframe class="rays" src="{address}" title="The rays of {escape(title)}" loading="lazy">'
+        f'<iframe class="rays" src="{address}" title="The rays of {title}" loading="lazy">'
         f'</iframe>\n\n<a href="{address}">The view by itself</a>\n'
     )
 
 
+def view(name: str, x: int, y: int, kept: Path = KEPT) -> Path:
+    """Follow a pixel's rays, unless they are kept under a hash of all that decides them; return the page."""
+    loaded = load_description(scene_path(name))
+    scene = loaded.description
+    seen = {"title": scene.title, "sampler": scene.sampler.type, "samples": scene.sampler.samples}
+    key = scene_hash(loaded, Effects(), pixel=[x, y], seed=scene.seed, page=_sources(), **seen)
+    file = kept / f"{key}.html"
+    return file if file.is_file() else _written(file, name, x, y)
+
+
 @cache
-def _page(name: str, x: int, y: int, spp: int | None) -> tuple[str, str]:
-    story = pixel(scene_path(name), x, y, spp=spp)
-    return page(story), story.tree.text
+def _sources() -> str:
+    """Hash of all that records rays and shows them."""
+    files = [path for path in (PACKAGE / "engine" / "recording").iterdir() if path.is_file()]
+    return sha256(b"".join(path.read_bytes() for path in sorted(files))).hexdigest()
+
+
+def _written(file: Path, name: str, x: int, y: int, spp: int | None = None) -> Path:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_text(file, _page(name, x, y, spp))
+    return file
+
+
+@cache
+def _page(name: str, x: int, y: int, spp: int | None) -> str:
+    return page(pixel(scene_path(name), x, y, spp=spp))

@@ -13,7 +13,7 @@ pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
 
 import sitebuild
-from sitebuild import kept, notebook, parts
+from sitebuild import kept, notebook, parts, rays
 from sitebuild.place import Place
 from sphinx.project import Project
 
@@ -145,3 +145,14 @@ def test_a_notebook_that_was_run_is_used(tmp_path: Path, monkeypatch: pytest.Mon
     blank = Place("", blank=True, made=tmp_path, files={})
     notebook.notebook(blank, "first_look")
     assert blank.kept == set()
+
+
+def test_the_rays_of_a_pixel_are_followed_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    followed = []
+    monkeypatch.setattr(rays, "_page", lambda *pixel: followed.append(pixel) or "rays")
+    file, other = (rays.view("film", x, 9, tmp_path) for x in (7, 8))
+    assert file != other
+    assert rays.view("film", 7, 9, tmp_path) == file
+    assert followed == [("film", 7, 9, None), ("film", 8, 9, None)]
