@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from importlib import import_module
 from itertools import pairwise
@@ -65,6 +65,7 @@ ONCE = {
     "course check": "docs/guides/students.md",
     "course release --out student.zip": "docs/guides/instructors.md",
     "course references": "docs/guides/instructors.md",
+    "course status": "README.md",
     "course grade SUBMISSIONS/ --out graded --seed 20261": "docs/guides/instructors.md",
     "course grade SUBMISSIONS/ --out graded --engine dask --address tcp://host:8786": (
         "docs/guides/instructors.md"
@@ -123,6 +124,12 @@ MINIMAL: dict[str, Any] = {
     "objects": [{"shape": "sphere", "material": "grey", "segments": 16}],
 }
 """What parts of scenes are put into."""
+
+MANY_WORDS = 8
+"""Of a command that asks for more than grades, with the options that make it short."""
+
+COARSER = 50
+"""Times fewer rays that find what patches see of each other."""
 
 OUTPUTS = ("-o", "--out", "--html", "--json", "--receipt", "--heat-map", "--plots")
 
@@ -260,6 +267,9 @@ class Page:
         words += (
             [] if name in ("bundle", "grade") and "--modules" in words else SHORTER.get(name, [])
         )
+        if name == "grade" and len(words) > MANY_WORDS and "--address" not in words:
+            # As many processes as there are cores are started for the line that asks for nothing but grades.
+            words += ["--jobs", "1"]
         if "--error" in words:
             # An error can be aimed at with 8 samples or more.
             words += ["--spp", "8"]
@@ -271,7 +281,7 @@ class Page:
             words += ["--split", "0.3"] if "--split" in words else []
         elif name == "radiosity":
             words += TINY
-        with _small(words), _few_references(name):
+        with _small(words), _few_references(name), _coarse(words):
             output = _run(words)
         for path in written:
             if not [*path.parent.glob(f"{path.stem}*{path.suffix}")]:
@@ -312,8 +322,11 @@ class Page:
 
     def _make(self, target: str) -> str:
         environment = {name: value for name, value in os.environ.items() if "MAKE" not in name}
+        # It looks for a Python by starting one after the other, each time that its name is needed.
+        given = [] if target == "setup" else [f"PYTHON={sys.executable}"]
+        command = ["make", "-n", *given, target]
         printed = subprocess.run(
-            ["make", "-n", target], capture_output=True, text=True, env=environment, check=False
+            command, capture_output=True, text=True, env=environment, check=False
         )
         if printed.returncode:
             raise FollowingError(printed.stderr)
@@ -499,6 +512,24 @@ def _few_references(command: str) -> Iterator[None]:
         yield
 
 
+@contextmanager
+def _coarse(words: Sequence[str]) -> Iterator[None]:
+    """Few rays between patches, and METU's balls of few triangles: no option of a command says how many there are."""
+    with ExitStack() as coarser:
+        if words[0] == "radiosity":
+            from course.engine.radiosity import radiosity, solving
+
+            few = partial(solving.gathered, rays=solving.GATHER_RAYS // COARSER)
+            shooting = partial(solving.Shooting, lamp_rays=solving.LAMP_RAYS // COARSER)
+            coarser.enter_context(mock.patch.object(radiosity, "gathered", few))
+            coarser.enter_context(mock.patch.object(radiosity, "Shooting", shooting))
+        if any(word.endswith(".xml") for word in words):
+            from course.engine.formats.metu import objects
+
+            coarser.enter_context(mock.patch.object(objects, "SEGMENTS", ()))
+        yield
+
+
 def _smaller(render: Callable[..., Any], scene: Any, **choices: Any) -> Any:
     """Render as `course.render` does, in a small size unless one is asked for, with few samples."""
     small = {"size": choices.get("size") or (48, 32), "spp": min(choices.get("spp") or 4, 8)}
@@ -547,14 +578,14 @@ def _keys() -> set[str]:
 
 
 def _remove(path: Path) -> None:
-    if path.is_dir():
+    if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path)
     path.unlink(missing_ok=True)
 
 
 def main(names: Sequence[str]) -> None:
     """Follow the pages, each to its first mistake; what one of them makes isn't there for the next."""
-    there, mistakes = _files(), []
+    there, mistakes = _all(), []
     for name in names:
         page = Page(name, Path.cwd())
         try:
@@ -565,14 +596,15 @@ def main(names: Sequence[str]) -> None:
             # Not left to the end of the process: workers would outlive it.
             if page.cluster is not None:
                 page.cluster.close()
-        for path in _files() - there:
-            path.unlink()
+        for path in sorted(_all() - there, reverse=True):
+            _remove(path)
     sys.exit("\n".join(mistakes) or 0)
 
 
-def _files() -> set[Path]:
+def _all() -> set[Path]:
+    """Files and folders, but not what Python keeps of modules that it has read."""
     return {
-        path for path in Path().rglob("*") if path.is_file() and path.parent.name != "__pycache__"
+        path for path in Path().rglob("*") if "__pycache__" not in (path.name, path.parent.name)
     }
 
 

@@ -35,15 +35,18 @@ LONG |= {f"docs/guides/{name}.md" for name in ("grades", "instructors", "student
 
 MODULES = [page for page in FOLLOWED if page.startswith("docs/modules/")]
 SHORT = [page for page in FOLLOWED if page not in (*MODULES, *LONG)]
-TOGETHER = [*(MODULES[i::5] for i in range(5)), *(SHORT[i::3] for i in range(3))]
+TOGETHER = [*(MODULES[i::2] for i in range(2)), *(SHORT[i::2] for i in range(2))]
 TOGETHER += [[page] for page in FOLLOWED if page in LONG]
-"""Pages that one process follows, in one copy: to start it takes longer than what most of them say."""
+"""Pages that one process follows, in one copy: to make it takes longer than what most of them say."""
 
-KNOWN_SUBMISSIONS = 3
-"""Right and wrong submissions of a module that are kept for `course calibrate`."""
+KNOWN_SUBMISSIONS = {"right": 1, "wrong": 3}
+"""Submissions of a module that are kept for `course calibrate`, which renders a large picture with each right one."""
 
-FINEST, KNOT = 96, 288
+FINEST, KNOT = 32, 288
 """Flat pieces of a curve in the copy; a knot needs 8 (p + q), and one with many turns is a spring."""
+
+SKY = 24
+"""Texels along the faces of an environment in the copy."""
 
 SMALL_SCENE = """\
 camera: {eye: [0, 2, 6], look_at: [0, 1, 0]}
@@ -67,7 +70,7 @@ def _copied(folder: Path) -> Path:
     for file in FILES:
         shutil.copyfile(PROJECT / file, folder / file)
     for scene in (folder / "scenes").rglob("*.yaml"):
-        # What costs most in small pictures is to make the meshes.
+        # What costs most in small pictures is to make the meshes and the sky.
         lines = scene.read_text(encoding="utf-8").splitlines(keepends=True)
         scene.write_text("".join(map(_coarse, lines)), encoding="utf-8")
     (folder / "few").mkdir()
@@ -90,12 +93,15 @@ def _too_many(folder: str, names: list[str]) -> list[str]:
         # Compiled loops are most of a checkout that has been used.
         return [name for name in names if name.endswith((".nbi", ".nbc"))]
     # Questions name many wrong submissions, those of film in the copy.
-    if Path(folder).parent.name not in ("wrong", "right") or Path(folder).name == "film":
+    kept = KNOWN_SUBMISSIONS.get(Path(folder).parent.name)
+    if kept is None or Path(folder).name == "film":
         return []
-    return sorted(name for name in names if name.endswith(".py"))[KNOWN_SUBMISSIONS:]
+    return sorted(name for name in names if name.endswith(".py"))[kept:]
 
 
 def _coarse(line: str) -> str:
+    if "{type: lat_long," in line:
+        line = re.sub(r", size: \d+", "", line).replace("lat_long,", f"lat_long, size: {SKY},")
     most = KNOT if "shape: torus_knot" in line else FINEST
     return re.sub(
         r"\b(segments|sides): (\d+)", lambda found: f"{found[1]}: {min(int(found[2]), most)}", line

@@ -3,12 +3,14 @@
 import os
 import shutil
 import subprocess
+from functools import partial
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
 from course.engine.functions.effects import PROJECT
+from course.engine.radiosity import radiosity, solving
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
@@ -37,6 +39,9 @@ def test_a_room_is_lit_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(pictures, "KEPT", tmp_path)
     monkeypatch.setattr(other_shots, "PATCHES", 100)
     monkeypatch.setattr(other_shots, "RADIOSITY_SIZE", (48, 48))
+    # Fewer patches alone would have as many rays, each patch the more.
+    few_rays = partial(solving.gathered, rays=400_000)
+    monkeypatch.setattr(radiosity, "gathered", few_rays)
     place = _place(tmp_path, blank=False)
     text = other_shots.radiosity_shot(place, "radiosity", "A room")
     assert "--patches 100 --size 48x48 -o room.png" in text

@@ -26,6 +26,7 @@ from course.engine.radiosity.radiosity import PATCHES
 from course.engine.radiosity.solving import GATHERED, KEPT_BYTES
 from course.engine.render.box_tests import box_tests as boxes_met
 from course.engine.scene.scene import load_variant
+from tests.lengths import LONG, share
 
 DOCS = PROJECT / "docs"
 DATA = DOCS / "data"
@@ -209,10 +210,11 @@ def test_variances_are_measured_again(monkeypatch: pytest.MonkeyPatch) -> None:
         importance_sampling, "median_seconds", lambda timed, *_: dict.fromkeys(timed)
     )
     off = figures("importance_sampling")
-    for integrand, heading in (
+    integrands = (
         (importance_sampling.CUBE, "| density | variance |"),
         (importance_sampling.HIGHLIGHT, "variance, predicted"),
-    ):
+    )
+    for integrand, heading in share(integrands, 2):
         found = importance_sampling.measure(
             integrand, importance_sampling.BATCHES, importance_sampling.SAMPLES
         )
@@ -416,7 +418,9 @@ def test_tests_a_ray_of_the_scene() -> None:
     )
     scene = load_scene(PROJECT / "scenes" / "bounding_volumes.yaml")
     assert value(size) == sum(scene.compiled.triangles)
-    receipt = render(scene).receipt
+    width, height = scene.settings.width, scene.settings.height
+    # With a fourth of the pixels the means are those of all to 0.1%.
+    receipt = render(scene, size=(width, height) if LONG else (width // 2, height // 2)).receipt
     assert receipt.tests is not None
     rays = sum(receipt.rays.values())
     assert told(boxes, receipt.tests["boxes"] / rays, within=0.01)
@@ -456,7 +460,7 @@ def test_tests_a_ray_with_other_leaves() -> None:
     rows = table("bounding_volumes", "| leaf size |")
     others = [row for row in rows if row[1] != "4"]
     assert [row[1] for row in others] == ["1", "32"]
-    for size, leaf, _, boxes, triangles in others:
+    for size, leaf, _, boxes, triangles in share(others, 2):
         assert value(size) == corners[0].shape[1]
         hierarchy = bounding_volumes.build(*bounding_volumes._boxes(corners), int(leaf))
         hit, _, box_tests, triangle_tests = bounding_volumes.traverse(hierarchy, *corners, *rays)

@@ -1,11 +1,13 @@
 """Places in one's own modules, as editors know them: file and line, or cell and line of a notebook."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from course.engine.functions.notebook.needed import Place
 from course.engine.functions.sources import (
     cell_name,
     is_notebook,
@@ -14,6 +16,10 @@ from course.engine.functions.sources import (
     told_place,
 )
 from course.school.grading.checks.result import Result
+
+if TYPE_CHECKING:
+    # It reads notebooks, with IPython, which takes a fifth of a second to import.
+    from course.engine.functions.notebook.needed import Place
 
 
 def place_of(path: Path, module: str, function: str) -> Place:

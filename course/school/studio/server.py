@@ -22,7 +22,7 @@ from urllib.parse import parse_qs, urlsplit
 from course.base.errors import CourseError
 from course.engine.recording import view
 from course.school.studio.saving import write_view, yaml_of_view
-from course.school.studio.studio import Studio
+from course.school.studio.studio import POLL, Studio
 
 HOST = "127.0.0.1"
 
@@ -67,7 +67,10 @@ class Server:
         self._server.studio, self._server.token = studio, self.token
         self.port = int(self._server.server_address[1])
         self.address = f"http://{HOST}:{self.port}/?token={self.token}"
-        self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
+        # Looks whether it is to end as often as the studio looks at its files.
+        self._thread = threading.Thread(
+            target=self._server.serve_forever, args=(POLL,), daemon=True
+        )
         self._thread.start()
 
     def close(self) -> None:

@@ -18,14 +18,24 @@ Uses = dict[str, set[str]]
 
 @cache
 def imports(path: Path) -> frozenset[str]:
-    """The dotted names that a file of the course imports from the course; the house and its wings ask for the same."""
-    found: list[str] = []
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom):
-            found.append(str(node.module))
+    """The dotted names that a file of the course imports from the course."""
+    return frozenset(_imports(path))
+
+
+def _imports(path: Path) -> Iterator[str]:
+    for node in _statements(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and str(node.module).startswith("course."):
+            yield str(node.module)
         elif isinstance(node, ast.Import):
-            found += [each.name for each in node.names]
-    return frozenset(name for name in found if name.startswith("course."))
+            yield from (each.name for each in node.names if each.name.startswith("course."))
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """All statements of a file, at whatever depth: no expression imports, and ten of them stand in each statement."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.stmt | ast.excepthandler | ast.match_case):
+            yield child
+            yield from _statements(child)
 
 
 def uses(wing: str) -> Uses:
@@ -86,20 +96,29 @@ def wide(room: str) -> float:
 def arranged(rooms: Uses) -> dict[str, float]:
     """Which share of the floor's width lies to the left of each room's middle, so that arrows cross few rooms."""
     levels = floors(rooms)
+    arrows = sorted(direct(rooms))
     height = {room: level for level, floor in enumerate(levels) for room in floor}
-    # Of each arrow: the rooms between its ends, where it is at their height, and how near it may come.
-    arrows = [
-        (upper, lower, [*_between(height, upper, lower)]) for upper, lower in sorted(direct(rooms))
+    passed = [
+        (
+            upper,
+            lower,
+            [
+                (room, (height[upper] - level) / (height[upper] - height[lower]))
+                for room, level in height.items()
+                if height[lower] < level < height[upper]
+            ],
+        )
+        for upper, lower in arrows
     ]
+    needed = {room: wide(room) / 2 + MARGIN for room in rooms}
 
     def badness(middle: dict[str, float]) -> tuple[int, float, float]:
         crossed, slanted = 0, 0.0
-        for upper, lower, passed in arrows:
-            start, slant = middle[upper], middle[lower] - middle[upper]
-            slanted += abs(slant)
-            crossed += sum(
-                abs(start + share * slant - middle[room]) < near for room, share, near in passed
-            )
+        for upper, lower, between in passed:
+            start, slope = middle[upper], middle[lower] - middle[upper]
+            slanted += abs(slope)
+            for room, share in between:
+                crossed += abs(start + share * slope - middle[room]) * WIDTH < needed[room]
         return crossed, slanted, abs(sum(middle.values()) - len(middle) / 2)
 
     ways = (
@@ -113,13 +132,6 @@ def arranged(rooms: Uses) -> dict[str, float]:
         {room: x for floor in chosen for room, x in floor.items()} for chosen in product(*ways)
     )
     return min(together, key=badness)
-
-
-def _between(height: dict[str, int], upper: str, lower: str) -> Iterator[tuple[str, float, float]]:
-    for room, level in height.items():
-        if height[lower] < level < height[upper]:
-            share = (height[upper] - level) / (height[upper] - height[lower])
-            yield room, share, (wide(room) / 2 + MARGIN) / WIDTH
 
 
 def draw(canvas: Canvas, rooms: Uses, bottom: float, tall: dict[str, float]) -> None:

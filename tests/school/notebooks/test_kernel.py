@@ -37,10 +37,11 @@ def cells(module: str, folder: str = "assignments") -> list[str]:
     return ["".join(one["source"]) for one in document["cells"] if one["cell_type"] == "code"]
 
 
-def test_the_package_alone_imports_no_ipython() -> None:
+def test_neither_the_package_nor_what_checks_functions_imports_ipython() -> None:
     from tests.processes import python
 
-    python("-c", "import sys, course; assert 'IPython' not in sys.modules")
+    imported = "import sys, course, course.school.grading.progress"
+    python("-c", f"{imported}; assert 'IPython' not in sys.modules")
 
 
 def test_a_stub_is_to_do_and_a_solution_right(shared: Kernel) -> None:

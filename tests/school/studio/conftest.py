@@ -5,14 +5,14 @@ from __future__ import annotations
 import shutil
 import textwrap
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from course.engine.functions.effects import PROJECT
-from course.school.studio import checker
+from course.school.studio import checker, verdicts
 from course.school.studio.studio import Studio
 
 SCENE = """\
@@ -79,9 +79,43 @@ def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+class Unchecked:
+    """Stands for the process that checks: of each module it says at once that it knows nothing of its functions."""
+
+    def __init__(self, _folder: Path, event: Callable[[dict[str, Any]], None]) -> None:
+        self._event = event
+        self.run = 0
+
+    def check(self, modules: Sequence[str], _first: Sequence[str], nice: bool) -> None:
+        """See ``Checker``."""
+        self.run += 1
+        for module in modules:
+            self._event({"module": module, "functions": [], "run": self.run})
+        self._event({"done": True, "run": self.run})
+
+    def prepare(self) -> None:
+        """See ``Checker``."""
+
+    def stop(self) -> None:
+        """See ``Checker``."""
+        self.run += 1
+
+    def close(self) -> None:
+        """See ``Checker``."""
+
+
 @pytest.fixture
-def studio(work: Path) -> Iterator[Studio]:
+def checked() -> None:
+    """Asked for by tests whose studio checks functions; half of the time of the others would be that of checks."""
+
+
+@pytest.fixture
+def studio(
+    work: Path, request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Studio]:
     """A studio of the ball."""
+    if "checked" not in request.fixturenames:
+        monkeypatch.setattr(verdicts, "Checker", Unchecked)
     made = Studio(work / "ball.yaml", "mine")
     made.start()
     yield made

@@ -75,6 +75,7 @@ NOTHING = (
 )
 
 
+@pytest.mark.usefixtures("checked")
 def test_a_student_saves_what_is_wrong_and_then_what_is_right(
     browser: Any, studio: Studio, work: Path
 ) -> None:
@@ -126,6 +127,7 @@ SAID_WITHIN, TRIES = 2.0, 5
 """Seconds from the save to the page; the fastest of some tries counts, for other work takes the processors at times."""
 
 
+@pytest.mark.usefixtures("checked")
 @pytest.mark.parametrize("what", share([*GOES_WRONG], 4))
 def test_what_goes_wrong_is_said_within_two_seconds_and_the_page_goes_on(
     browser: Any, studio: Studio, work: Path, what: str
@@ -330,14 +332,14 @@ def test_a_view_writes_its_camera_only_when_asked(browser: Any, viewer: Studio, 
         assert "# The lamp." in written
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.usefixtures("checked")
 def test_axe_finds_nothing_and_a_telephone_is_wide_enough(
-    browser: Any, studio: Studio, work: Path, scheme: str
+    browser: Any, studio: Studio, work: Path
 ) -> None:
     accessibility = pytest.importorskip("tests.docs.test_accessibility")
     write(work, WRONG)
     # Axe is put into the page, which takes no scripts but its own.
-    with opened(browser, studio, bypass_csp=True, color_scheme=scheme) as page:
+    with opened(browser, studio, bypass_csp=True, color_scheme="dark") as page:
         ready(page)
         until(lambda: state(page) == "wrong")
         page.fill("#x", "20")
@@ -347,6 +349,8 @@ def test_axe_finds_nothing_and_a_telephone_is_wide_enough(
         page.click("#others summary")
         for width in (1280, 390):
             page.set_viewport_size({"width": width, "height": 844})
-            assert page.evaluate("document.documentElement.scrollWidth") <= width
-            for rules in (accessibility.RULES, accessibility.COLOURS):
-                assert accessibility._faults(page, rules) == []
+            for scheme in ("dark", "light"):
+                page.emulate_media(color_scheme=scheme)
+                assert page.evaluate("document.documentElement.scrollWidth") <= width
+                assert accessibility._faults(page, accessibility.COLOURS) == []
+            assert accessibility._faults(page, accessibility.RULES) == []
