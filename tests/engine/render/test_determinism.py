@@ -10,6 +10,7 @@ import pytest
 
 from course import Picture, load_scene, render
 from course.base.errors import CourseError
+from course.engine.core import tiles
 from course.engine.core.counters import Counters
 from course.engine.core.film import Film
 from course.engine.core.tiles import Tile, Work, passes
@@ -26,9 +27,15 @@ SAMPLERS = tuple(FUNCTIONS)
 FILTERS = ("box", "gaussian")
 
 
+@pytest.fixture(autouse=True)
+def small_tiles(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small pictures have as many tiles as larger ones do otherwise."""
+    monkeypatch.setattr(tiles, "RAYS", tiles.RAYS // 4)
+
+
 def film_of(kind: str) -> dict[str, Any]:
-    # 80 x 70 pixels make several tiles at 16 samples, the last of a row and of a column narrower.
-    return {"width": 80, "height": 70, "filter": kind}
+    # 40 x 35 pixels make several tiles at 16 samples, the last of a row and of a column narrower.
+    return {"width": 40, "height": 35, "filter": kind}
 
 
 def same(a: Picture, b: Picture) -> bool:
@@ -57,7 +64,7 @@ def test_so_it_does_for_paths_for_lights_of_triangles_and_for_everything(
 ) -> None:
     scene = load_scene(PROJECT / "scenes" / f"{name}.yaml")
     one, three = (
-        render(scene, sampler=sampler, spp=16, size=(90, 80), threads=threads) for threads in (1, 3)
+        render(scene, sampler=sampler, spp=16, size=(45, 40), threads=threads) for threads in (1, 3)
     )
     assert np.isfinite(one.linear).all()
     assert same(one, three)
