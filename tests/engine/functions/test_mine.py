@@ -250,7 +250,7 @@ def test_one_box_of_all_triangles_is_a_hierarchy() -> None:
 @pytest.mark.usefixtures("unsolved")
 @pytest.mark.parametrize("solver", ["gather", "shoot"])
 def test_without_radiosity_only_lamps_are_bright(solver: str) -> None:
-    options = f"--method {solver} --patches 60 --split .5 -o light.npz -o l.png"
+    options = f"--method {solver} --patches 60 --split .5 --size 64x64 -o light.npz -o l.png"
     scene = str(PROJECT / "scenes/radiosity.yaml")
     told = CliRunner().invoke(commands, ["radiosity", scene, *options.split()])
     assert told.exit_code == 0, told.output
