@@ -17,25 +17,22 @@ import numpy as np
 import pytest
 import yaml
 
-from course import load_scene, render
+from course import render
 from course.cli.tables import summary_sections
 from course.engine.formats.meshes.files import read_mesh
 from course.engine.formats.pictures.reading import read_picture
-from course.engine.formats.yaml.description import TorusKnot
-from course.engine.formats.yaml.loading import load_description
 from course.engine.functions.effects import Alone
 from course.engine.functions.modules import COURSE, MODULES
 from course.engine.render.summary import summarize
 from course.engine.scene.building.further import KEYS
 from course.engine.scene.scene import load_variant
+from tests.coarser import coarser
 from tests.once import Once
 
 SCENES = Path(__file__).parent.parent / "scenes"
 ALL = sorted(SCENES.rglob("*.yaml"))
 GALLERY = sorted((SCENES / "gallery").glob("*.yaml"))
 EVERYTHING = SCENES / "gallery" / "everything.yaml"
-FINE, KNOT = 64, 512
-"""Segments that a small picture may need, and those of a knot, which must have many."""
 
 # Which keys may differ between a scene and its twin without the effect.
 MAY_DIFFER = {
@@ -130,15 +127,8 @@ def rendered(once: Once) -> Callable[[Path], Shown]:
 
 def _rendered(path: Path) -> Shown:
     samples = yaml.safe_load(path.read_text(encoding="utf-8")).get("sampler", {}).get("samples", 16)
-    loaded = load_description(path)
-    # Of meshes of many triangles fewer do; of the largest scene all are made.
-    coarser = {
-        ("objects", number, "segments"): fine
-        for number, thing in enumerate(loaded.description.objects)
-        for fine in [KNOT if isinstance(thing, TorusKnot) else FINE]
-        if getattr(thing, "segments", 0) > fine and path != EVERYTHING
-    }
-    scene = load_variant(path, coarser)
+    # Of the largest scene all triangles are made.
+    scene = load_variant(path, {} if path == EVERYTHING else coarser(path))
     picture = render(scene, size=(16, 12), spp=1 if samples == 1 else 4)
     world = scene.compiled
     said = str(summary_sections(summarize(scene)))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course import Picture, load_scene, render
+from course import Picture, render
 from course.base.errors import CourseError
 from course.engine.core import tiles
 from course.engine.core.counters import Counters
@@ -17,9 +17,11 @@ from course.engine.core.tiles import Tile, Work, passes
 from course.engine.functions.effects import PROJECT
 from course.engine.render.binding import bind
 from course.engine.render.threads import Pool
+from course.engine.scene.scene import load_variant
 from course.engine.terms import work as extra_work
 from course.engine.terms.samplers import FUNCTIONS
 from course.engine.terms.work import divided_passes
+from tests.coarser import coarser
 from tests.engine.conftest import EveryStage
 from tests.lengths import fewer
 
@@ -62,7 +64,8 @@ def test_any_number_of_threads_gives_the_same_bits(
 def test_so_it_does_for_paths_for_lights_of_triangles_and_for_everything(
     name: str, sampler: str
 ) -> None:
-    scene = load_scene(PROJECT / "scenes" / f"{name}.yaml")
+    path = PROJECT / "scenes" / f"{name}.yaml"
+    scene = load_variant(path, coarser(path))
     one, three = (
         render(scene, sampler=sampler, spp=16, size=(45, 40), threads=threads) for threads in (1, 3)
     )

@@ -32,7 +32,8 @@ from course.engine.render.adaptive.film import PARTS, AdaptiveFilm
 from course.engine.render.adaptive.pixel_groups import TwinGroup
 from course.engine.render.adaptive.rounds import RoundGroups, render_adaptively
 from tests.engine.render.clock import Clock
-from tests.lengths import fewer, share
+from tests.lengths import fewer
+from tests.lengths import share as part_of
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]
@@ -602,7 +603,7 @@ def test_where_all_pixels_are_alike_it_costs_no_more_than_a_tenth(
     assert np.mean(samples) < 1.1 * alike
 
 
-@pytest.mark.parametrize(("name", "gain"), share([("motion_blur", 1.5), ("glossy", 1.5)], 2))
+@pytest.mark.parametrize(("name", "gain"), part_of([("motion_blur", 1.5), ("glossy", 1.5)], 2))
 def test_scenes_of_the_course_need_fewer_samples_for_the_same_error(name: str, gain: float) -> None:
     """Less error than with that many times its samples in every pixel alike: about 0.65 of its square.
 
@@ -651,7 +652,7 @@ def test_blocks_have_the_right_brightness_where_samples_find_the_light(
     assert (np.abs(mean - 0.3) < 6 * deviation + 1e-4).all()
 
 
-@pytest.mark.parametrize(("sampler", "error"), share([("random", 0.006), ("sobol", 0.002)], 2))
+@pytest.mark.parametrize(("sampler", "error"), part_of([("random", 0.006), ("sobol", 0.002)], 2))
 def test_blocks_have_the_right_brightness_along_an_edge(
     make_scene: MakeScene, sampler: str, error: float
 ) -> None:
@@ -665,7 +666,7 @@ def test_blocks_have_the_right_brightness_along_an_edge(
 
 
 @pytest.mark.parametrize(
-    ("sampler", "seeds", "error"), share([("sobol", 30, 0.015), ("random", 30, 0.03)], 2)
+    ("sampler", "seeds", "error"), part_of([("sobol", 30, 0.015), ("random", 30, 0.03)], 2)
 )
 def test_blocks_have_the_brightness_of_a_converged_picture(
     every_stage: EveryStage, sampler: str, seeds: int, error: float
