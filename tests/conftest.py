@@ -22,7 +22,6 @@ from course.engine.render.threads import default_threads
 from tests.browser import browser
 from tests.compiling import alone, take_turns
 from tests.forms import FORMS
-from tests.lengths import LONG, without_combinations
 from tests.once import Once, made_once, shared_folder
 
 __all__ = ["browser"]
@@ -39,6 +38,7 @@ os.environ.setdefault("COURSE_NO_COMPILER", "1")
 
 # How long it takes to make an example, or to try it, decides no test; `make stress` asks for another profile.
 settings.register_profile("usual", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("stress", settings.get_profile("usual"), max_examples=2000)
 settings.load_profile("usual")
 
 # A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.
@@ -71,6 +71,9 @@ def pytest_configure(config: pytest.Config) -> None:
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Leave out what only the long run tries. What alone was asked for is tried: it has what no other has."""
+    # Hypothesis has its profile after this file has been read, and tests.lengths asks for it.
+    from tests.lengths import LONG, without_combinations
+
     if not LONG:
         items[:] = without_combinations(items)
 

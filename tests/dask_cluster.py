@@ -41,6 +41,16 @@ class Cluster:
         with distributed.Client(self.address, set_as_default=False) as client:
             client.wait_for_workers(count, timeout=START)
 
+    def close_workers(self) -> None:
+        """End them, and wait until the scheduler knows."""
+        for process in self.processes[1:]:
+            process.kill()
+            process.wait()
+        import distributed
+
+        with distributed.Client(self.address, set_as_default=False) as client:
+            wait_until(lambda: not client.scheduler_info()["workers"])
+
     def close(self) -> None:
         for process in self.processes:
             process.kill()

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import settings
 
 LONG = settings.get_current_profile_name() == "stress"
-"""Whether all was asked for: `pytest FILE --hypothesis-profile=stress`."""
+"""Whether all was asked for: `pytest FILE --hypothesis-profile=stress`. Known when tests are collected, not before."""
 
 T = TypeVar("T")
 

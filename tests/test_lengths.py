@@ -5,6 +5,7 @@ from itertools import product
 import pytest
 
 from tests.lengths import covering, without_combinations
+from tests.processes import python
 
 TEXT = """
 import pytest
@@ -81,6 +82,14 @@ def test_all_else_is_tried_whole_and_in_its_order(collected: list[pytest.Item]) 
     left = without_combinations(collected)
     assert left == [item for item in collected if item in left]
     assert without_combinations(left) == left
+
+
+def test_the_long_run_tries_all_combinations() -> None:
+    file = "tests/engine/terms/lights/test_weights.py"
+    asked = ("--collect-only", "-q", "-p", "no:cacheprovider", "--hypothesis-profile=stress", file)
+    found = python("-m", "pytest", *asked).stdout
+    # Of 147 a third is tried otherwise.
+    assert found.count("test_lamps_in_lobes_are_as_bright_as_quadrature_says[") == 147
 
 
 def test_what_covers_has_all_that_there_is() -> None:

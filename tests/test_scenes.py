@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 import yaml
 
-from course import load_scene, render
+from course import render
 from course.cli.tables import summary_sections
 from course.engine.formats.meshes.files import read_mesh
 from course.engine.formats.pictures.reading import read_picture
@@ -25,11 +25,14 @@ from course.engine.functions.effects import Alone
 from course.engine.functions.modules import COURSE, MODULES
 from course.engine.render.summary import summarize
 from course.engine.scene.building.further import KEYS
+from course.engine.scene.scene import load_variant
+from tests.coarser import coarser
 from tests.once import Once
 
 SCENES = Path(__file__).parent.parent / "scenes"
 ALL = sorted(SCENES.rglob("*.yaml"))
 GALLERY = sorted((SCENES / "gallery").glob("*.yaml"))
+EVERYTHING = SCENES / "gallery" / "everything.yaml"
 
 # Which keys may differ between a scene and its twin without the effect.
 MAY_DIFFER = {
@@ -88,7 +91,10 @@ CALLS = {
 
 
 class Shown(NamedTuple):
-    """What is known of a scene and of a small picture of it: to load it takes most of the time."""
+    """What is known of a scene and of a small picture of it: to load it takes most of the time.
+
+    Of meshes that are made here, with few segments but in ``EVERYTHING``.
+    """
 
     brightest: float
     spread: float
@@ -121,7 +127,8 @@ def rendered(once: Once) -> Callable[[Path], Shown]:
 
 def _rendered(path: Path) -> Shown:
     samples = yaml.safe_load(path.read_text(encoding="utf-8")).get("sampler", {}).get("samples", 16)
-    scene = load_scene(path)
+    # Of the largest scene all triangles are made.
+    scene = load_variant(path, {} if path == EVERYTHING else coarser(path))
     picture = render(scene, size=(16, 12), spp=1 if samples == 1 else 4)
     world = scene.compiled
     said = str(summary_sections(summarize(scene)))
@@ -237,7 +244,9 @@ def codes(modules, folder):
     """A small picture after 1984 by students who have written some modules, and nothing else."""
     for module in modules:
         shutil.copy(SCENES.parent / "solutions" / f"{module}.py", folder)
-    picture = render(load_scene(HOMAGE, Alone(folder)), size=(64, 36), spp=4)
+    # Its room is coarser here, for it is made anew for each of them.
+    scene = load_variant(HOMAGE, {("environment", "size"): 48}, Alone(folder))
+    picture = render(scene, size=(64, 36), spp=4)
     return picture.settings.display.codes(picture.shown).astype(int), picture.receipt.effects
 
 
@@ -275,8 +284,7 @@ def test_1984_has_five_balls_two_in_motion_several_lamps_and_a_number_on_each():
 
 
 def test_everything_has_every_effect_at_once_on_many_triangles(rendered):
-    path = SCENES / "gallery" / "everything.yaml"
-    shown = rendered(path)
+    shown = rendered(EVERYTHING)
     assert modules(shown.called) == set(MODULES)
     assert shown.triangles > 200_000
 

@@ -1,6 +1,7 @@
 """The referee of changes that are to change no picture: it sees one that does."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,11 +12,18 @@ from benchmarks import pictures
 SCENE = "before/supersampling"
 
 
-@pytest.fixture
-def record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """One scene's pictures by one sampler."""
-    monkeypatch.setattr(pictures, "FUNCTIONS", {"sobol": ()})
-    file = tmp_path / "pictures.json"
+@pytest.fixture(scope="module", autouse=True)
+def one_sampler() -> Iterator[None]:
+    """All scenes are rendered by one sampler alone."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pictures, "FUNCTIONS", {"sobol": ()})
+        yield
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One scene's pictures."""
+    file = tmp_path_factory.mktemp("record") / "pictures.json"
     run = CliRunner().invoke(pictures.main, [SCENE, "--record", str(file)])
     assert run.exit_code == 0, run.output
     return file
@@ -34,10 +42,11 @@ def test_a_picture_that_changed_is_named(record: Path, monkeypatch: pytest.Monke
     assert f"scenes/{SCENE}.yaml, sobol, NumPy: changed" in run.output
 
 
-def test_another_machine_is_refused(record: Path) -> None:
+def test_another_machine_is_refused(record: Path, tmp_path: Path) -> None:
     found = json.loads(record.read_text())
     found["machine"]["processor"] = "another"
-    record.write_text(json.dumps(found))
-    run = CliRunner().invoke(pictures.main, [SCENE, "--compare", str(record)])
+    other = tmp_path / "other.json"
+    other.write_text(json.dumps(found))
+    run = CliRunner().invoke(pictures.main, [SCENE, "--compare", str(other)])
     assert run.exit_code == 1
     assert "recorded on another machine" in run.output

@@ -16,7 +16,7 @@ from course.engine.comparing.pair import FLOAT_STEP, HALF_STEP
 from course.engine.comparing.significance import SPOT, Comparison, compare
 from course.engine.comparing.windows import Grid, Window
 from course.engine.formats.pictures.display import linear_to_srgb8, srgb_to_linear
-from tests.lengths import fewer
+from tests.lengths import fewer, share
 
 Array = NDArray[np.float64]
 Noise = Callable[[np.random.Generator], Array]
@@ -94,7 +94,7 @@ def test_false_alarms_are_as_rare_as_promised() -> None:
     assert (found[0] < 1).any(), "it isn't honest by never saying anything"
 
 
-@pytest.mark.parametrize("noise", [even, uneven, heavy, shared])
+@pytest.mark.parametrize("noise", share([shared, even, heavy, uneven], 2))
 def test_one_picture_may_be_noisier(noise: Noise) -> None:
     assert_honest(p_values(noise, 60, 0.05))
 
@@ -272,7 +272,7 @@ def test_a_spot_of_three_pixels_stands_out_most(noise: Noise) -> None:
     assert found.found[0].place.meets(Window(33, 20, 1, 1))
 
 
-@pytest.mark.parametrize("noise", KINDS)
+@pytest.mark.parametrize("noise", share(KINDS, 2))
 def test_fireflies_and_noise_are_no_spots(noise: Noise) -> None:
     """Of 50 pairs of each kind more than 4 below .01 would come in one of 7,000 runs if that were the true share."""
     p = []

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from course import EffectError, load_scene, pixel, render
+from course import EffectError, Scene, load_scene, pixel, render
 from course.base.errors import CourseWarning
 from course.cli.main import commands
 from course.engine.core.types import Floats32
@@ -27,10 +27,18 @@ from course.engine.functions.signatures import CONTRACTS
 from course.engine.functions.stand_ins import STAND_INS
 from course.engine.render.sections import receipt_sections
 from course.engine.scene.scene import load_variant
+from tests.coarser import coarser
 from tests.conftest import MakeScene
 
 SCENE = PROJECT / "scenes" / "glossy.yaml"
 SMALL: Any = {"size": (24, 16), "spp": 4}
+
+
+def loaded(effects: str | Path | Effects, path: Path = SCENE) -> Scene:
+    """A scene of the course, with fewer triangles."""
+    return load_variant(path, coarser(path), effects)
+
+
 MIRRORED = '''
 
 def sample_phong_lobe(direction, exponent, u):
@@ -60,7 +68,7 @@ def test_a_picture_has_the_functions_that_are_written() -> None:
     solution = Effects("solutions").function("glossy", "keep_above")
     other = effects.function("glossy", "keep_above")
     assert other.__code__.co_filename == solution.__code__.co_filename
-    pictures = [render(load_scene(SCENE, e), **SMALL) for e in ("mine", "solutions")]
+    pictures = [render(loaded(e), **SMALL) for e in ("mine", "solutions")]
     assert not np.array_equal(*(picture.linear for picture in pictures))
     told = pictures[0].receipt.to_dict()["effects"]
     assert told["yours"] == ["glossy.sample_phong_lobe"]
@@ -73,8 +81,8 @@ def test_without_a_written_function_it_is_the_solutions_picture(
 ) -> None:
     (tmp_path / "assignments").mkdir()
     monkeypatch.chdir(tmp_path)
-    scene = load_scene(SCENE, "mine")
-    found, wanted = (render(each, **SMALL) for each in (scene, load_scene(SCENE, "solutions")))
+    scene = loaded("mine")
+    found, wanted = (render(each, **SMALL) for each in (scene, loaded("solutions")))
     assert np.array_equal(found.linear, wanted.linear)
     assert found.receipt.to_dict()["effects"]["yours"] == []
 
@@ -86,7 +94,7 @@ def test_alone_a_folder_has_stand_ins_though_there_be_solutions(mine: Path) -> N
         effects.function("glossy", "sample_phong_lobe")(way, 9.0, np.zeros((2, 1), np.float32)), way
     )
     assert effects.function("glossy", "keep_above") is STAND_INS["glossy.keep_above"][0]
-    told = render(load_scene(SCENE, effects), **SMALL).receipt.to_dict()["effects"]
+    told = render(loaded(effects), **SMALL).receipt.to_dict()["effects"]
     assert told["yours"] == ["glossy.sample_phong_lobe"]
 
 
@@ -124,10 +132,10 @@ def test_a_mistake_is_still_told_with_its_line(mine: Path) -> None:
     with (mine / "glossy.py").open("a") as file:
         file.write("\n\ndef keep_above(direction, normal):\n    return direction[0]\n")
     with pytest.raises(EffectError, match=r"glossy\.keep_above .*glossy\.py:\d+\) returned"):
-        render(load_scene(SCENE, "mine"), **SMALL)
+        render(loaded("mine"), **SMALL)
     (mine / "glossy.py").write_text("def keep_above(:\n")
     with pytest.raises(EffectError, match="SyntaxError"):
-        load_scene(SCENE, "mine")
+        loaded("mine")
 
 
 @pytest.mark.parametrize(
@@ -195,7 +203,7 @@ def test_what_the_renderer_calls_has_a_stand_in() -> None:
 def test_without_solutions_unwritten_functions_have_no_effect(name: str) -> None:
     effects = Effects()
     assert effects.mixed
-    picture = render(load_scene(PROJECT / "scenes" / f"{name}.yaml", effects), **SMALL)
+    picture = render(loaded(effects, PROJECT / "scenes" / f"{name}.yaml"), **SMALL)
     assert np.isfinite(picture.linear).all()
     assert picture.linear.mean() > 0.05
     told = picture.receipt.to_dict()["effects"]
@@ -250,7 +258,7 @@ def test_one_box_of_all_triangles_is_a_hierarchy() -> None:
 @pytest.mark.usefixtures("unsolved")
 @pytest.mark.parametrize("solver", ["gather", "shoot"])
 def test_without_radiosity_only_lamps_are_bright(solver: str) -> None:
-    options = f"--method {solver} --patches 60 --split .5 -o light.npz -o l.png"
+    options = f"--method {solver} --patches 60 --split .5 --size 64x64 -o light.npz -o l.png"
     scene = str(PROJECT / "scenes/radiosity.yaml")
     told = CliRunner().invoke(commands, ["radiosity", scene, *options.split()])
     assert told.exit_code == 0, told.output
@@ -305,7 +313,7 @@ def test_functions_that_a_scene_does_not_call_are_told(mine: Path) -> None:
     with (mine / "glossy.py").open("a") as file:
         file.write("\n\ndef orthonormal_basis(w):\n    return w, w\n")
     small = {**SMALL, "sampler": "halton"}
-    receipt = render(load_scene(SCENE, "mine"), **small).receipt.to_dict()
+    receipt = render(loaded("mine"), **small).receipt.to_dict()
     told = receipt["effects"]
     assert "quasi_monte_carlo.halton" in told["called"]
     assert told["not called"] == [
@@ -317,7 +325,7 @@ def test_functions_that_a_scene_does_not_call_are_told(mine: Path) -> None:
         told_row(receipt)
         == "glossy.orthonormal_basis, quasi_monte_carlo.radical_inverse, all of film"
     )
-    solutions = render(load_scene(SCENE, "solutions"), **small).receipt.to_dict()["effects"]
+    solutions = render(loaded("solutions"), **small).receipt.to_dict()["effects"]
     assert "not called" not in solutions
 
 

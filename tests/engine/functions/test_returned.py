@@ -115,28 +115,30 @@ def test_large_numbers_are_taken_and_those_whose_products_overflow_are_not(
         spoiled(path, spoil, number)()
 
 
+OTHER_KINDS: dict[str, Callable[[Any], Any]] = {
+    "shorter": lambda a: a[..., :-1],
+    "one column": lambda a: a[..., :1],
+    "an axis more": lambda a: a[None],
+    "list": lambda a: a.tolist(),
+    "complex": lambda a: a.astype(complex),
+    "object": lambda a: a.astype(object),
+    "None": lambda _: None,
+    "number": lambda _: 1.0,
+}
+
+
 @pytest.mark.parametrize(("path", "number", "kind"), RESULTS)
-@pytest.mark.parametrize(
-    "spoil",
-    [
-        lambda a: a[..., :-1],
-        lambda a: a[..., :1],
-        lambda a: a[None],
-        lambda a: a.tolist(),
-        lambda a: a.astype(complex),
-        lambda a: a.astype(object),
-        lambda _: None,
-        lambda _: 1.0,
-    ],
-    ids=["shorter", "one column", "an axis more", "list", "complex", "object", "None", "number"],
-)
-def test_other_kinds_of_values_are_refused(
-    path: str, number: int, kind: str, spoil: Callable[[Any], Any]
-) -> None:
+def test_other_kinds_of_values_are_refused(path: str, number: int, kind: str) -> None:
     """Nothing is broadcast, and nothing that isn't an array of numbers goes on."""
     del kind
-    with pytest.raises(FunctionError, match=rf"{re.escape(path)} \(.*; expected"):
-        spoiled(path, spoil, number)()
+    told = dict.fromkeys(OTHER_KINDS, "")
+    for name, spoil in OTHER_KINDS.items():
+        try:
+            spoiled(path, spoil, number)()
+        except FunctionError as error:
+            told[name] = str(error)
+    refused = rf"{re.escape(path)} \(.*; expected"
+    assert {name: text for name, text in told.items() if not re.search(refused, text)} == {}
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """Which scenes the fused loop takes, and that numbers and camera rays as arrays give the same pictures."""
 
 from dataclasses import fields, is_dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,11 @@ from tests.lengths import fewer
 
 SCENES = PROJECT / "scenes"
 OTHERS = [name for name in FUNCTIONS if name != "sobol"]
+
+
+@cache
+def scene_of(name: str) -> Scene:
+    return load_scene(SCENES / f"{name}.yaml")
 
 
 def bound(scene: Scene, **changed: Any) -> Any:
@@ -58,7 +63,7 @@ def test_all_fields_of_a_part_that_fits_are_listed(kind: type) -> None:
     ],
 )
 def test_scenes_of_the_course(name: str, expected: bool) -> None:
-    assert fits(bound(load_scene(SCENES / f"{name}.yaml"), sampler="sobol")) == expected
+    assert fits(bound(scene_of(name), sampler="sobol")) == expected
 
 
 def test_a_part_of_an_unknown_type_does_not_fit() -> None:
@@ -78,7 +83,7 @@ def test_a_part_of_an_unknown_type_does_not_fit() -> None:
 @pytest.mark.parametrize("sampler", OTHERS)
 @pytest.mark.parametrize("name", ["glossy", "thin_lens", "motion_blur"])
 def test_other_samplers_are_drawn_as_arrays(name: str, sampler: str) -> None:
-    scene = load_scene(SCENES / f"{name}.yaml")
+    scene = scene_of(name)
     size = (32, 24) if FUNCTIONS[sampler][0][0] == "blue_noise" else (30, 20)
     options: dict[str, Any] = {"spp": 16, "size": size, "sampler": sampler, "seed": 3}
     tracer = bound(scene, sampler=sampler, samples=16)

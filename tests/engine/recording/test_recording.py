@@ -25,6 +25,9 @@ SCENES = sorted(path.stem for path in (PROJECT / "scenes").glob("*.yaml"))
 SIZE, SPP = (16, 12), 17
 """Two passes, the second a short one."""
 
+SMALL = (8, 6)
+"""Where every pixel is recorded."""
+
 OF_ITS_OWN = {"adaptive_sampling"}
 """Scenes whose pixels have no samples of their own."""
 
@@ -37,11 +40,16 @@ def scene_of(name: str, sampler: str | None = "sobol") -> Scene:
 
 
 def picture_and_recording(
-    scene: Scene, x: int = 6, y: int = 4, width: int = 5, height: int = 4
+    scene: Scene,
+    x: int = 6,
+    y: int = 4,
+    width: int = 5,
+    height: int = 4,
+    size: tuple[int, int] = SIZE,
 ) -> tuple[Picture, Recording]:
     # A preview adds its samples up in other steps, for it needs their variance.
-    picture = render(scene, size=SIZE, spp=SPP, denoise=False)
-    return picture, record(scene, x, y, width, height, size=SIZE, spp=SPP)
+    picture = render(scene, size=size, spp=SPP, denoise=False)
+    return picture, record(scene, x, y, width, height, size=size, spp=SPP)
 
 
 def sums(recording: Recording) -> Floats64:
@@ -103,11 +111,11 @@ def test_every_ray_of_the_receipt_is_recorded(name: str) -> None:
     # The shadow ray of a round mesh may have another one, from its facet up to where it begins.
     facets = {("sampler", "type"): "sobol", ("integrator", "terminator"): "facets"}
     scene = load_variant(PROJECT / "scenes" / f"{name}.yaml", facets, RecordedEffects(Effects()))
-    picture, recording = picture_and_recording(scene, 0, 0, *SIZE)
+    picture, recording = picture_and_recording(scene, 0, 0, *SMALL, size=SMALL)
     receipt = picture.receipt.to_dict()
     kinds = Counter(one.kind for one in recording.segments)
     rays = receipt["rays"]
-    assert kinds["camera"] == rays["camera"] == SIZE[0] * SIZE[1] * SPP
+    assert kinds["camera"] == rays["camera"] == SMALL[0] * SMALL[1] * SPP
     assert kinds["shadow"] + kinds["environment"] == rays["shadow"]
     assert kinds["mirrored"] + kinds["refracted"] + kinds["bounce"] == sum(
         rays.get(kind, 0) for kind in ("reflection", "refraction", "path")

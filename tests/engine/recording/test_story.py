@@ -16,6 +16,8 @@ from course.cli.main import commands
 from course.engine.functions.effects import PROJECT
 from course.engine.loops.library import available
 from course.engine.recording.story import Line, Story
+from course.engine.scene.scene import load_variant
+from tests.coarser import coarser
 from tests.conftest import MakeScene
 
 BALL: dict[str, Any] = {"shape": "sphere", "material": "grey", "radius": 1, "name": "ball"}
@@ -264,7 +266,8 @@ def test_a_function_that_makes_a_pixel_black_is_named(function: str, tmp_path: P
     )
     with (folder / f"{function.split('.')[0]}.py").open("a", encoding="utf-8") as file:
         file.write(f"\n{text}\n")
-    story = pixel(PROJECT / "scenes" / scene, 5, 5, spp=16, size=(48, 32), effects=folder)
+    path = PROJECT / "scenes" / scene
+    story = pixel(load_variant(path, coarser(path), folder), 5, 5, spp=16, size=(48, 32))
     assert story.reason.startswith(told)
 
 

@@ -8,17 +8,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course import Picture, load_scene, render
+from course import Picture, render
 from course.base.errors import CourseError
+from course.engine.core import tiles
 from course.engine.core.counters import Counters
 from course.engine.core.film import Film
 from course.engine.core.tiles import Tile, Work, passes
 from course.engine.functions.effects import PROJECT
 from course.engine.render.binding import bind
 from course.engine.render.threads import Pool
+from course.engine.scene.scene import load_variant
 from course.engine.terms import work as extra_work
 from course.engine.terms.samplers import FUNCTIONS
 from course.engine.terms.work import divided_passes
+from tests.coarser import coarser
 from tests.engine.conftest import EveryStage
 from tests.lengths import fewer
 
@@ -26,9 +29,15 @@ SAMPLERS = tuple(FUNCTIONS)
 FILTERS = ("box", "gaussian")
 
 
+@pytest.fixture(autouse=True)
+def small_tiles(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small pictures have as many tiles as larger ones do otherwise."""
+    monkeypatch.setattr(tiles, "RAYS", tiles.RAYS // 4)
+
+
 def film_of(kind: str) -> dict[str, Any]:
-    # 80 x 70 pixels make several tiles at 16 samples, the last of a row and of a column narrower.
-    return {"width": 80, "height": 70, "filter": kind}
+    # 40 x 35 pixels make several tiles at 16 samples, the last of a row and of a column narrower.
+    return {"width": 40, "height": 35, "filter": kind}
 
 
 def same(a: Picture, b: Picture) -> bool:
@@ -55,9 +64,10 @@ def test_any_number_of_threads_gives_the_same_bits(
 def test_so_it_does_for_paths_for_lights_of_triangles_and_for_everything(
     name: str, sampler: str
 ) -> None:
-    scene = load_scene(PROJECT / "scenes" / f"{name}.yaml")
+    path = PROJECT / "scenes" / f"{name}.yaml"
+    scene = load_variant(path, coarser(path))
     one, three = (
-        render(scene, sampler=sampler, spp=16, size=(90, 80), threads=threads) for threads in (1, 3)
+        render(scene, sampler=sampler, spp=16, size=(45, 40), threads=threads) for threads in (1, 3)
     )
     assert np.isfinite(one.linear).all()
     assert same(one, three)

@@ -56,7 +56,7 @@ def agree(
         return [float(v) for v in r @ np.array(x) + shift]
 
     steps = [{"rotate": {"axis": list(AXIS), "degrees": degrees}}, {"translate": list(away)}]
-    ball = {"shape": "sphere", "radius": RADIUS, "segments": 400, "material": "ball"}
+    ball = {"shape": "sphere", "radius": RADIUS, "segments": 200, "material": "ball"}
     up = [float(v) for v in r @ np.array([0, 1.0, 0])]
     scene = make_scene(
         camera={

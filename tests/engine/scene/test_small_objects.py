@@ -43,7 +43,7 @@ def on_floor(
         steps: list[dict[str, Any]] = [{"translate": list(x)}]
         return [*steps, {"rotate": {"axis": list(AXIS), "degrees": degrees}}]
 
-    ball = {"shape": "sphere", "radius": ACROSS / 2, "segments": 400, "material": "grey"}
+    ball = {"shape": "sphere", "radius": ACROSS / 2, "segments": 200, "material": "grey"}
     floor = {"shape": "quad", "width": width, "depth": width, "material": "grey"}
     return make_scene(
         **{
@@ -140,7 +140,7 @@ def test_a_lamp_just_above_a_huge_floor(
 
 @pytest.mark.parametrize("width", [1e3, *WIDTHS])
 def test_a_ball_in_a_huge_room(make_scene: MakeScene, pixel_rays: PixelRays, width: float) -> None:
-    ball = {"shape": "sphere", "radius": ACROSS / 2, "segments": 400, "material": "grey"}
+    ball = {"shape": "sphere", "radius": ACROSS / 2, "segments": 200, "material": "grey"}
     lifted = {"transform": [{"translate": [0, width / 2, 0]}]}
     room = {"shape": "box", "size": [width, width, width], "material": "grey"} | lifted
     scene = on_floor(
@@ -289,7 +289,7 @@ def test_a_camera_on_a_floor_far_from_what_is_small_sees_what_is_above_it(
 
 def test_balls_that_are_apart_by_less_are_both_right(make_scene: MakeScene) -> None:
     # The origin is put between them, up to 750 of their sizes from each.
-    ball = {"shape": "sphere", "radius": 1, "segments": 400, "material": "grey"}
+    ball = {"shape": "sphere", "radius": 1, "segments": 200, "material": "grey"}
     floor = {"shape": "quad", "width": 1e7, "depth": 1e7, "material": "grey"}
     shown = []
     for away in (0.0, 1000.0):

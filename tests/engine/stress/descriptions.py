@@ -128,7 +128,9 @@ def _number(kind: inspect.FloatType, key: str) -> Strategy:
     rare = st.one_of(extreme.filter(legal), *([st.sampled_from(ends)] if ends else []))
     # One in twenty: with more of them most scenes would be refused.
     chance = st.integers(0, 19)
-    return chance.flatmap(lambda k: rare if k == 19 else within.filter(legal))
+    # Made once: Hypothesis reads the source of what a new strategy filters by.
+    usual = within.filter(legal)
+    return chance.flatmap(lambda k: rare if k == 19 else usual)
 
 
 def _whole_number(kind: inspect.IntType, key: str) -> Strategy:

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+import pickle
 from collections import Counter
 from functools import cache
 from itertools import groupby
@@ -48,14 +49,29 @@ from course.engine.core import ray_offset
 from course.engine.loops.library import available as packets_available
 from course.engine.shapes import displaced_sphere
 from tests.lengths import fewer
+from tests.once import Once
 
 REJECTION = "ball by rejection"
+
+
+_once: list[Once] = []
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_process_designs(once: Once) -> None:
+    """Cells are designed where a test asks for them first."""
+    _once.append(once)
 
 
 @cache
 def cells() -> tuple[Cell, ...]:
     """All of them; they take seconds to design, which whoever only collects tests need not wait for."""
-    return all_cells()
+
+    def make(file: Path) -> None:
+        file.write_bytes(pickle.dumps(all_cells()))
+
+    found: tuple[Cell, ...] = pickle.loads(_once[-1]("cells.pickle", make).read_bytes())
+    return found
 
 
 @cache

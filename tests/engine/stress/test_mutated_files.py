@@ -24,6 +24,9 @@ KINDS = {kind.name: kind for kind in file_kinds()}
 FILES = 10_000 // (len(KINDS) - 1) if LONG else 16
 """Of each kind, but for those with a smaller share."""
 
+ARCHIVES = 1 if LONG else 1 / 4
+"""The share of work in archives, each of which a process of its own unpacks."""
+
 SECONDS = 20.0
 """For a file that takes thousandths; a machine that does much else may be slow, too."""
 
@@ -129,7 +132,8 @@ def test_mutated_files_are_read_or_refused_in_a_line(tmp_path: Path) -> None:
                 if (quiet := reading.ask(kind.name, path)[:3]) != ("read", "", ""):
                     wrong.append(f"{kind.name} without normals: {quiet}")
             refused = 0
-            files = max(2, int(FILES * kind.share))
+            archive = kind.name.startswith("work")
+            files = max(2, int(FILES * kind.share * (ARCHIVES if archive else 1)))
             for number in range(files):
                 path.write_bytes(mutated(kind, number, others))
                 answer = reading.ask(kind.name, path)

@@ -1,6 +1,6 @@
 """The six faces of a cube map, from pictures of other forms."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -10,15 +10,22 @@ from course.engine.terms.environments.sampling import FRAMES
 SAMPLES = 8_000_000
 """Of a picture at most, where texels are means of more than four."""
 
+AT_ONCE = 16_000
+"""Samples of a face: what is computed of them stays in the processor's cache."""
+
 
 def texel_directions(size: int, subsamples: int = 1) -> Floats64:
     """Directions through the texels of all faces, (6, size, size, subsamples^2, 3) float64, not normalised."""
-    n = size * subsamples
-    place = (np.arange(n) + 0.5) * 2 / n - 1
+    place = _places(size * subsamples)
     middle, right, down = FRAMES.swapaxes(0, 1)[:, :, None, None]
     directions: Floats64 = middle + place[:, None] * right + place[:, None, None] * down
     split = directions.reshape(6, size, subsamples, size, subsamples, 3)
     return np.moveaxis(split, 2, 3).reshape(6, size, size, subsamples * subsamples, 3)
+
+
+def _places(count: int) -> Floats64:
+    """The middles of as many equal parts of a face's edge, from -1 to 1."""
+    return (np.arange(count) + 0.5) * 2 / count - 1
 
 
 def cube_from_lat_long(image: Floats32, size: int) -> Floats32:
@@ -92,25 +99,39 @@ def _resampled(
 ) -> Floats32:
     """Faces by the columns and rows of a picture that directions (x, y, z) have."""
     faces = np.empty((6, size, size, 3), np.float32)
-    for number, directions in enumerate(texel_directions(size, subsamples)):
-        column, row = place(*np.moveaxis(directions, -1, 0))
-        faces[number] = _bilinear(image, column, row).mean(axis=2)
+    shape = image.shape[:2]
+    channels = np.ascontiguousarray(image.reshape(-1, 3).T, np.float64)
+    # The samples of texels: (subsamples^2, rows, columns), so that their sums are those of whole arrays.
+    places = _places(size * subsamples).reshape(size, subsamples).T
+    across = np.tile(places, (subsamples, 1))[:, None]
+    along = np.repeat(places, subsamples, axis=0)[:, :, None]
+    height = max(AT_ONCE // (size * subsamples**2), 1)
+    for face, frame in zip(faces, FRAMES.swapaxes(1, 2), strict=True):
+        for first in range(0, size, height):
+            rows = slice(first, first + height)
+            x, y, z = (m + across * r + along[:, rows] * d for m, r, d in frame)
+            for channel, samples in enumerate(_bilinear(channels, shape, *place(x, y, z))):
+                face[rows, :, channel] = samples.mean(axis=0)
     return faces
 
 
-def _bilinear(image: Floats32, column: Floats64, row: Floats64) -> Floats64:
-    """Samples of a picture that repeats sideways and ends at the poles."""
-    height, width = image.shape[:2]
+def _bilinear(
+    channels: Floats64, shape: tuple[int, ...], column: Floats64, row: Floats64
+) -> Iterator[Floats64]:
+    """Samples of each channel of a picture that repeats sideways and ends at the poles."""
+    height, width = shape
     left, top = np.floor(column), np.floor(row)
-    a, b = (column - left)[..., None], (row - top)[..., None]
+    a, b = column - left, row - top
     c0 = left.astype(np.intp) % width
     c1 = (c0 + 1) % width
-    r0 = np.clip(top.astype(np.intp), 0, height - 1)
-    r1 = np.clip(top.astype(np.intp) + 1, 0, height - 1)
-    upper = image[r0, c0] * (1 - a) + image[r0, c1] * a
-    lower = image[r1, c0] * (1 - a) + image[r1, c1] * a
-    mixed: Floats64 = upper * (1 - b) + lower * b
-    return mixed
+    r0 = np.clip(top.astype(np.intp), 0, height - 1) * width
+    r1 = np.clip(top.astype(np.intp) + 1, 0, height - 1) * width
+    corners = r0 + c0, r0 + c1, r1 + c0, r1 + c1
+    for channel in channels:
+        upper_left, upper_right, lower_left, lower_right = (channel.take(at) for at in corners)
+        upper = upper_left * (1 - a) + upper_right * a
+        lower = lower_left * (1 - a) + lower_right * a
+        yield upper * (1 - b) + lower * b
 
 
 def cube_from_cross(image: Floats32) -> Floats32:

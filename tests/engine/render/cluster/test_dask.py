@@ -100,11 +100,11 @@ def test_a_time_limit_begins_when_the_workers_have_the_scene(
     mine = tmp_path / "mine"
     shutil.copytree(ROOT / "solutions", mine)
     with (mine / "supersampling.py").open("a") as module:
-        module.write("\nimport sys, time\nif 'dask_worker' in sys.argv[0]:\n    time.sleep(2.5)\n")
+        module.write("\nimport sys, time\nif 'dask_worker' in sys.argv[0]:\n    time.sleep(1.5)\n")
     scene = load_scene(every_stage().path, effects=mine)
     began = time.monotonic()
-    picture = render(scene, time_limit=2, address=cluster.address)
-    assert time.monotonic() - began >= 4.5
+    picture = render(scene, time_limit=1, address=cluster.address)
+    assert time.monotonic() - began >= 2.5
     assert picture.film.samples.min() >= 1
     assert not picture.complete
 
@@ -153,15 +153,32 @@ def test_a_worker_lost_half_way_loses_nothing(
             lost.wait()
             killed_at.append(done)
 
-    there = render(scene, spp=96, progress=progress, address=cluster.address)
+    there = render(scene, spp=48, progress=progress, address=cluster.address)
     assert killed_at
     assert there.receipt.threads == 3
-    assert_same(render(scene, spp=96), there)
+    assert_same(render(scene, spp=48), there)
+
+
+@pytest.fixture(scope="module")
+def scheduler(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A scheduler without a worker."""
+    pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
+    with closing(Cluster(tmp_path_factory.mktemp("scheduler"))) as started:
+        yield started
 
 
 @pytest.fixture
-def lone(tmp_path: Path) -> Iterator[Cluster]:
-    """A scheduler with a single worker, which may be killed."""
+def lone(scheduler: Cluster) -> Iterator[Cluster]:
+    """A scheduler with a single worker, which may be killed; what is left of its workers goes afterwards."""
+    scheduler.add_worker()
+    scheduler.wait_for_workers(1)
+    yield scheduler
+    scheduler.close_workers()
+
+
+@pytest.fixture
+def mortal(tmp_path: Path) -> Iterator[Cluster]:
+    """The same with a scheduler of its own, which may be killed, too."""
     pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
     with closing(Cluster(tmp_path)) as started:
         started.add_worker()
@@ -171,25 +188,31 @@ def lone(tmp_path: Path) -> Iterator[Cluster]:
 
 @pytest.mark.parametrize(
     ("which", "told"),
-    [("scheduler", "the scheduler has gone"), ("worker", "all workers have gone")],
+    [("mortal", "the scheduler has gone"), ("lone", "all workers have gone")],
+    ids=["scheduler", "worker"],
 )
 def test_a_cluster_that_goes_is_told(
-    every_stage: EveryStage, lone: Cluster, monkeypatch: pytest.MonkeyPatch, which: str, told: str
+    every_stage: EveryStage,
+    request: pytest.FixtureRequest,
+    monkeypatch: pytest.MonkeyPatch,
+    which: str,
+    told: str,
 ) -> None:
     monkeypatch.setattr(connection_module, "ALONE", 0.3)
-    goes = lone.scheduler if which == "scheduler" else lone.processes[-1]
+    cluster: Cluster = request.getfixturevalue(which)
+    goes = cluster.scheduler if which == "mortal" else cluster.processes[-1]
 
     def progress(done: float, _covered: bool) -> None:
         if done > 0:
             goes.kill()
 
     with pytest.raises(CourseError, match=told):
-        render(every_stage(), spp=65536, progress=progress, address=lone.address)
+        render(every_stage(), spp=65536, progress=progress, address=cluster.address)
 
 
 @pytest.mark.parametrize("direct", [False, True], ids=["asked", "cut off"])
 def test_a_scheduler_that_goes_while_results_are_fetched_is_told(
-    every_stage: EveryStage, lone: Cluster, monkeypatch: pytest.MonkeyPatch, direct: bool
+    every_stage: EveryStage, mortal: Cluster, monkeypatch: pytest.MonkeyPatch, direct: bool
 ) -> None:
     """What the client meets then depends on the moment: so it is also made to meet a connection that is cut off."""
     distributed = pytest.importorskip("distributed")
@@ -203,12 +226,12 @@ def test_a_scheduler_that_goes_while_results_are_fetched_is_told(
         asked.append(arguments)
         if len(asked) < 3:
             return gather(self, *arguments, **keywords)
-        lone.scheduler.kill()
+        mortal.scheduler.kill()
         return cut_off() if direct else gather(self, *arguments, **keywords)
 
     monkeypatch.setattr(distributed.Client, "gather", at_the_wrong_moment)
     with pytest.raises(CourseError, match="the scheduler has gone"):
-        render(every_stage(), spp=65536, address=lone.address)
+        render(every_stage(), spp=65536, address=mortal.address)
     assert len(asked) == 3
 
 
@@ -274,9 +297,9 @@ def test_another_worker_does_again_what_was_lost(
     lone.wait_for_workers(2)
     loss = Loss(monkeypatch, lone.processes[-1])
     scene = every_stage()
-    there = render(scene, spp=1024, progress=loss.progress, address=lone.address)
+    there = render(scene, spp=512, progress=loss.progress, address=lone.address)
     assert loss.happened
-    assert_same(render(scene, spp=1024), there)
+    assert_same(render(scene, spp=512), there)
 
 
 def test_what_a_function_raises_on_a_worker_is_raised_here(

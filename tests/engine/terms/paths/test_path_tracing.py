@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from course import Scene, render
 from course.base.errors import SceneError
 from course.engine import shapes
+from course.engine.core import tiles
+from course.engine.core.rays import RAYS
 from course.engine.functions.effects import PROJECT
 from course.engine.scene.scene import load_scene
 from course.engine.terms import plan, work
@@ -313,18 +315,21 @@ def test_batches_that_are_followed_together_give_the_same_bits(
 ) -> None:
     scene = load_scene(PROJECT / "scenes" / "path_tracing.yaml")
     monkeypatch.setattr(work, "SHARES", 1)
+    # As if a picture of four times the pixels were rendered.
+    for part in (tiles, work, path_pieces, path_tracing):
+        monkeypatch.setattr(part, "RAYS", RAYS // 4)
 
     def picture(batches: int, **settings: Any) -> bytes:
         monkeypatch.setattr(plan, "PIECES", batches)
-        return render(scene, size=(140, 130), spp=16, **settings).linear.tobytes()
+        return render(scene, size=(70, 65), spp=16, **settings).linear.tobytes()
 
     # 4.4 batches of rays, in tiles of one, of two and of four.
     one = picture(1)
     assert one == picture(2) == picture(4, threads=1) == picture(4, threads=3)
     assert picture(1, error=0.05) == picture(4, error=0.05)
     # Batches that wait for others at many depths, and some that overtake those that wait.
-    monkeypatch.setattr(path_pieces, "RAYS", 3000)
-    monkeypatch.setattr(path_tracing, "RAYS", 3000)
+    monkeypatch.setattr(path_pieces, "RAYS", 750)
+    monkeypatch.setattr(path_tracing, "RAYS", 750)
     assert picture(64) == one
 
 
