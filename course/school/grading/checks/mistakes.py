@@ -8,12 +8,10 @@ has them without the submissions.
 """
 
 import json
-import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from functools import cache, lru_cache
 from importlib.resources import files
-from io import BytesIO
 from itertools import count, permutations, product
 from typing import Any
 from unittest.mock import patch
@@ -56,6 +54,9 @@ SLIPS = {
 }
 """Mistakes that a failure shows by itself, in whatever function, and what the student is told."""
 
+HEAD = 8
+"""Bytes that say how long the table of a print's arrays is."""
+
 Print = Mapping[str, Array]
 """What is kept of a submission: by probe, of its features, and what the student is told."""
 
@@ -85,11 +86,13 @@ def _fewer(function: Function, a: Arguments) -> Arguments:
     return a
 
 
-def taken(function: Function, caller: Caller) -> dict[str, Array]:
-    """The print of somebody's function."""
+def taken(
+    function: Function, caller: Caller, probed: Iterable[tuple[str, Arguments]]
+) -> dict[str, Array]:
+    """The print of somebody's function; ``probed``: all of ``probes``, which are left as they are."""
     found: dict[str, Array] = {}
-    for name, a in probes(function):
-        for part, array in _outcome(caller, function, a).items():
+    for name, a in probed:
+        for part, array in _outcome(caller, function, deepcopy(a)).items():
             found[f"{name}:{part}"] = array
     features = _features(function, caller)
     if features is not None:
@@ -362,11 +365,12 @@ def prints(module: str, function: Function) -> Check:
     """The check whose arrays are the prints of the reference and of a function's known wrong submissions."""
 
     def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
-        found = {f"/{key}": value for key, value in taken(function, caller).items()}
+        probed = list(probes(function))
+        found = {f"/{key}": value for key, value in taken(function, caller, probed).items()}
         for one in known(module):
             if one.mistake not in ("", *SLIPS) and one.function == function.name:
-                found |= _print(function, one)
-        # One array of all: a file of thousands of small ones takes seconds to open.
+                found |= _print(function, one, probed)
+        # One array of all: a file of thousands of small ones takes seconds to write and to open.
         return {"packed": np.frombuffer(_packed(found), np.uint8).copy()}
 
     return Check(
@@ -375,18 +379,16 @@ def prints(module: str, function: Function) -> Check:
 
 
 def _packed(arrays: Mapping[str, Array]) -> bytes:
-    """A file as ``np.savez_compressed`` makes it, but for the time of day: the same arrays give the same bytes."""
-    file = BytesIO()
-    with zipfile.ZipFile(file, "w") as pack:
-        for name, array in arrays.items():
-            entry = zipfile.ZipInfo(f"{name}.npy")
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            with pack.open(entry, "w") as member:
-                np.lib.format.write_array(member, array, allow_pickle=False)
-    return file.getvalue()
+    """The length of a table of their names, dtypes and shapes, that table, and the numbers of all."""
+    rows = [(name, array.dtype.str, array.shape) for name, array in arrays.items()]
+    table = json.dumps(rows, separators=(",", ":")).encode()
+    numbers = (array.tobytes() for array in arrays.values())
+    return b"".join((len(table).to_bytes(HEAD, "little"), table, *numbers))
 
 
-def _print(function: Function, one: KnownSubmission) -> dict[str, Array]:
+def _print(
+    function: Function, one: KnownSubmission, probed: Iterable[tuple[str, Arguments]]
+) -> dict[str, Array]:
     # Some draw numbers of their own: other ones in each call, but the same course gives the same bytes.
     draw, seeds = np.random.default_rng, count()
     seeded = patch(
@@ -394,7 +396,7 @@ def _print(function: Function, one: KnownSubmission) -> dict[str, Array]:
     )
     np.random.seed(0)  # noqa: NPY002
     with np.errstate(all="ignore"), seeded:
-        arrays = taken(function, trusted(one))
+        arrays = taken(function, trusted(one), probed)
     start = f"{one.mistake}~{one.name}"
     return {f"{start}/{key}": value for key, value in arrays.items()} | {
         f"{start}/says": np.array(one.says)
@@ -422,11 +424,13 @@ def mistake_of(
 def _unpacked(packed: bytes) -> Mapping[str, Mapping[str, Any]]:
     """Arrays that nobody may write to, by what they are of; whoever grades a class asks for the same often."""
     grouped: dict[str, dict[str, Any]] = {}
-    with np.load(BytesIO(packed), allow_pickle=False) as arrays:
-        for name in arrays.files:
-            start, _, key = name.partition("/")
-            array = grouped.setdefault(start, {})[key] = arrays[name]
-            array.setflags(write=False)
+    first = HEAD + int.from_bytes(packed[:HEAD], "little")
+    for name, dtype, shape in json.loads(packed[HEAD:first]):
+        start, _, key = name.partition("/")
+        # Bytes can't be written to, and so can't what looks at them.
+        array = np.ndarray(shape, dtype, packed, first)
+        grouped.setdefault(start, {})[key] = array
+        first += array.nbytes
     return grouped
 
 
