@@ -71,7 +71,8 @@ def first_properties(module: str) -> set[tuple[str, str]]:
 
 def concerned(submission: KnownSubmission, called_before: bool) -> Callable[[Check], bool]:
     """All checks for a right submission; for a wrong one the check meant for it, after one that calls the function or
-    alone."""
+    alone.
+    """
     if submission.right:
         seen = submission.name == SEEN[submission.module]
         dear = submission.module in DEAR and not (seen and LONG)

@@ -223,12 +223,18 @@ class Worker:
         return 0.0
 
     def seconds(self, call: _Call) -> float:
-        """How long a call takes: by the clock, for those of right functions are too short to count ticks."""
+        """How long a call takes: by the clock, for those of right functions are too short to count ticks.
+
+        Of two calls: the first one in a process takes many times as long.
+        """
         with self._lock:
             self._ready()
-            begun = monotonic()
-            self._once(call, begun + self.limits.call_seconds)
-            return monotonic() - begun
+            taken = []
+            for _ in range(2):
+                begun = monotonic()
+                self._once(call, begun + self.limits.call_seconds)
+                taken.append(monotonic() - begun)
+            return min(taken)
 
     def _ready(self) -> None:
         """Start the process if there is none; once more if it ends in importing the file."""
