@@ -136,24 +136,24 @@ def ran(folder: Path, command: list[str], name: str = "") -> str:
     """What was run of the folder's files by a command that began there; ``name``: of one that stays or takes long."""
     mark = folder.parent / "mark"
     mark.unlink(missing_ok=True)
-    process = subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, *command],
         cwd=folder,
         env=environment(folder, FEWER.get(name, "")),
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-    )
-    if name in STAYS:
-        assert process.stdout is not None
-        assert any("Ctrl-C ends it" in line for line in process.stdout)
-        interrupted(process)
-    else:
-        try:
-            process.communicate(timeout=SECONDS if name in BEGUN else 300)
-        except subprocess.TimeoutExpired:
-            assert name in BEGUN
+    ) as process:
+        if name in STAYS:
+            assert process.stdout is not None
+            assert any("Ctrl-C ends it" in line for line in process.stdout)
             interrupted(process)
+        else:
+            try:
+                process.communicate(timeout=SECONDS if name in BEGUN else 300)
+            except subprocess.TimeoutExpired:
+                assert name in BEGUN
+                interrupted(process)
     if name in FEWER:
         assert process.returncode == 0
     return mark.read_text() if mark.exists() else ""
