@@ -14,15 +14,7 @@ from course.engine.functions.modules import COURSE
 from course.engine.functions.notebook.reachable import reachable
 from course.engine.functions.notebook.reading import read_notebook
 from course.school.notebooks.making import notebook_of
-from tests.school.grading.lent import (
-    ReferencesFile,
-    at_hand,
-    lent_references,
-    references_file,
-    usual_references,
-)
-
-__all__ = ["lent_references", "references_file", "usual_references"]
+from tests.school.grading.lent import ReferencesFile, at_hand
 
 SCENE = PROJECT / "scenes" / "motion_blur.yaml"
 
