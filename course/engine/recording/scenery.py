@@ -1,6 +1,5 @@
 """The scene around recorded rays: its triangles, camera and lamps, as few numbers as show it."""
 
-from math import isfinite
 from typing import Any
 from weakref import ref
 
@@ -36,15 +35,15 @@ _BOX = np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4
 
 def rounded(value: Any) -> Any:
     """A number or numbers to five digits, as few characters as they need."""
-    if isinstance(value, tuple | list):
-        return [rounded(each) for each in value]
-    if isinstance(value, np.ndarray):
+    if isinstance(value, tuple | list | np.ndarray):
         # Python's own numbers are the faster ones.
-        return rounded(value.tolist())
+        return [
+            rounded(each) for each in (value.tolist() if isinstance(value, np.ndarray) else value)
+        ]
     if value is None or isinstance(value, str):
         return value
     number = float(f"{float(value):.5g}")
-    return (int(number) if number.is_integer() else number) if isfinite(number) else str(number)
+    return (int(number) if number.is_integer() else number) if np.isfinite(number) else str(number)
 
 
 def _rounded_rows(rows: Floats64) -> list[list[float]]:

@@ -13,7 +13,7 @@ None) and ``SAYS``. ``solutions/right/MODULE/NAME.py`` is a right submission wri
 
 import ast
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import lru_cache
 from pathlib import Path
 from textwrap import dedent, indent
 from types import ModuleType
@@ -25,8 +25,6 @@ from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
 from course.school.grading.checks.trusted import TrustedModule
-
-SOLUTIONS = PROJECT / "solutions"
 
 
 @dataclass(frozen=True)
@@ -64,18 +62,8 @@ def trusted(submission: KnownSubmission) -> TrustedModule:
     return TrustedModule({name: getattr(module, name) for name in COURSE[submission.module]})
 
 
-def known(module: str, folder: Path = SOLUTIONS) -> list[KnownSubmission]:
+def known(module: str, folder: Path = PROJECT / "solutions") -> list[KnownSubmission]:
     """A module's known submissions, the right ones first; ``CourseError`` where one lacks what it must say."""
-    return list(_of_the_course(module)) if folder == SOLUTIONS else _found(module, folder)
-
-
-@cache
-def _of_the_course(module: str) -> list[KnownSubmission]:
-    """The course's own: each function of a module asks for them."""
-    return _found(module, SOLUTIONS)
-
-
-def _found(module: str, folder: Path) -> list[KnownSubmission]:
     solution = (folder / f"{module}.py").read_text(encoding="utf-8")
     right, wrong = (
         [

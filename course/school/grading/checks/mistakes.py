@@ -60,6 +60,9 @@ SLIPS = {
 HEAD = 8
 """Bytes that say how long the table of a print's arrays is."""
 
+Probed = Iterable[tuple[str, Arguments]]
+"""All of ``probes``, made once for all submissions of a function."""
+
 Print = Mapping[str, Array]
 """What is kept of a submission: by probe, of its features, and what the student is told."""
 
@@ -89,9 +92,7 @@ def _fewer(function: Function, a: Arguments) -> Arguments:
     return a
 
 
-def taken(
-    function: Function, caller: Caller, probed: Iterable[tuple[str, Arguments]]
-) -> dict[str, Array]:
+def taken(function: Function, caller: Caller, probed: Probed) -> dict[str, Array]:
     """The print of somebody's function; ``probed``: all of ``probes``, which are left as they are."""
     found: dict[str, Array] = {}
     for name, a in probed:
@@ -370,13 +371,17 @@ def _alike(one: Array, other: Array) -> bool:
 # ---------------------------------------------------------------- prints of known submissions
 
 
+_known = lru_cache(maxsize=1)(known)
+"""Each function of a module asks for them."""
+
+
 def prints(module: str, function: Function) -> Check:
     """The check whose arrays are the prints of the reference and of a function's known wrong submissions."""
 
     def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
         probed = list(probes(function))
         found = {f"/{key}": value for key, value in taken(function, caller, probed).items()}
-        for one in known(module):
+        for one in _known(module):
             if one.mistake not in ("", *SLIPS) and one.function == function.name:
                 found |= _print(function, one, probed)
         # One array of all: a file of thousands of small ones takes seconds to write and to open.
@@ -395,9 +400,7 @@ def _packed(arrays: Mapping[str, Array]) -> bytes:
     return b"".join((len(table).to_bytes(HEAD, "little"), table, *numbers))
 
 
-def _print(
-    function: Function, one: KnownSubmission, probed: Iterable[tuple[str, Arguments]]
-) -> dict[str, Array]:
+def _print(function: Function, one: KnownSubmission, probed: Probed) -> dict[str, Array]:
     # Some draw numbers of their own: other ones in each call, but the same course gives the same bytes.
     draw, seeds = np.random.default_rng, count()
     seeded = patch(
