@@ -35,13 +35,11 @@ _BOX = np.array([[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4
 
 def rounded(value: Any) -> Any:
     """A number or numbers to five digits, as few characters as they need."""
-    if isinstance(value, tuple | list | np.ndarray):
-        # Python's own numbers are the faster ones.
-        return [
-            rounded(each) for each in (value.tolist() if isinstance(value, np.ndarray) else value)
-        ]
     if value is None or isinstance(value, str):
         return value
+    if isinstance(value, tuple | list | np.ndarray):
+        # Python's own numbers are the faster ones.
+        return [rounded(each) for each in getattr(value, "tolist", value.__iter__)()]
     number = float(f"{float(value):.5g}")
     return (int(number) if number.is_integer() else number) if np.isfinite(number) else str(number)
 
