@@ -179,10 +179,14 @@ def _baseline(shut_in: Sandbox) -> Report:
     return _graded("", shut_in)
 
 
+# Made once for all attacks.
+_references = cache(references)
+
+
 def _graded(name: str, shut_in: Sandbox) -> Report:
     return grade(
         {MODULE: submission(name).encode()},
-        references(),
+        _references(),
         modules=[MODULE],
         limits=LIMITS,
         shut_in=shut_in,

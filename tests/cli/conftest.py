@@ -9,6 +9,9 @@ from click.testing import CliRunner, Result
 import course
 from course.cli.main import commands
 from tests.cli.stand_in import Engine
+from tests.school.grading.lent import lent_references, references_file, usual_references
+
+__all__ = ["lent_references", "references_file", "usual_references"]
 
 Run = Callable[..., Result]
 

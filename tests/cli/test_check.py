@@ -1,6 +1,7 @@
 """`course check`: which modules are checked, and what is said of those that can't be."""
 
 import json
+from functools import partial
 from html import unescape
 from pathlib import Path
 
@@ -12,7 +13,10 @@ from course.cli.options import FAILED
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
 from course.school.grading.known import known as known_submissions
+from course.school.grading.worker.limits import Limits
 from tests.cli.conftest import Run
+
+pytestmark = pytest.mark.usefixtures("lent_references")
 
 
 @pytest.fixture
@@ -237,7 +241,11 @@ def test_a_function_without_return_is_told_what_is_missing(run: Run, folder: Pat
     assert "has to end with `return`" in said.stdout
 
 
-def test_a_loop_that_never_ends_is_pointed_at(run: Run, folder: Path) -> None:
+def test_a_loop_that_never_ends_is_pointed_at(
+    run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Ten seconds tell no more of it.
+    monkeypatch.setattr("course.school.grading.grading.Limits", partial(Limits, call_seconds=1.0))
     own = "\n\ndef displacement(*_):\n    while True:\n        pass\n"
     (folder / "motion_blur.py").write_text(SOLUTION + own, encoding="utf-8")
     last = len((SOLUTION + own).splitlines())

@@ -8,6 +8,8 @@ from course.cli import viva
 from course.engine.functions.effects import PROJECT
 from tests.cli.conftest import Run
 
+pytestmark = pytest.mark.usefixtures("lent_references")
+
 
 def test_questions_are_printed_with_answers_and_written_as_a_page(run: Run, tmp_path: Path) -> None:
     student = tmp_path / "Ada"

@@ -315,5 +315,5 @@ def _plain(value: Any) -> Any:
 
 
 def _triple(values: Any) -> Triple:
-    x, y, z = (float(v) for v in values)
+    x, y, z = np.asarray(values, np.float64).tolist()
     return x, y, z

@@ -13,17 +13,21 @@ from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
 from course.school.notebooks.making import notebook_of
 from tests.lengths import LONG
+from tests.school.grading.lent import ReferencesFile
 from tests.school.notebooks.kernels import Kernel, kernel
 
 CHOSEN = [*COURSE] if LONG else ["soft_shadows"]
 
 
 @pytest.fixture(scope="module")
-def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Kernel]:
+def shared(
+    tmp_path_factory: pytest.TempPathFactory, references_file: ReferencesFile
+) -> Iterator[Kernel]:
     home = tmp_path_factory.mktemp("course")
     (home / "assignments").mkdir()
     (home / "scenes").symlink_to(PROJECT / "scenes")
     with kernel(home / "assignments") as found:
+        found.lend({module: references_file(module) for module in CHOSEN})
         yield found
 
 

@@ -12,6 +12,7 @@ from PIL import Image
 
 from course.engine.functions.effects import PROJECT
 from course.school.notebooks.making import notebook_of
+from tests.school.grading.lent import ReferencesFile
 from tests.school.notebooks.kernels import Kernel, kernel
 
 SCENE = str(PROJECT / "scenes" / "soft_shadows.yaml")
@@ -25,8 +26,11 @@ def displacement(velocity, time):
 
 
 @pytest.fixture(scope="module")
-def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Kernel]:
+def shared(
+    tmp_path_factory: pytest.TempPathFactory, references_file: ReferencesFile
+) -> Iterator[Kernel]:
     with kernel(tmp_path_factory.mktemp("notebook")) as found:
+        found.lend({"motion_blur": references_file("motion_blur")})
         assert not found.run("%load_ext course\nimport numpy as np").error
         yield found
 

@@ -14,6 +14,7 @@ from course.engine.functions.modules import COURSE
 from course.engine.functions.notebook.reachable import reachable
 from course.engine.functions.notebook.reading import read_notebook
 from course.school.notebooks.making import notebook_of
+from tests.school.grading.lent import ReferencesFile, at_hand
 
 SCENE = PROJECT / "scenes" / "motion_blur.yaml"
 
@@ -85,29 +86,31 @@ def as_program(book: Path, folder: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("given", ["file", "folder", "--folder"])
-def test_a_notebook_is_checked_as_its_program_is(book: Path, tmp_path: Path, given: str) -> None:
-    arguments = {
-        "file": [str(book)],
-        "folder": ["motion_blur", "--folder", str(book.parent)],
-        "--folder": ["motion_blur", "--folder", str(book)],
-    }[given]
-    own = run("check", *arguments)
-    other = run("check", "motion_blur", "--folder", str(as_program(book, tmp_path / "program")))
-    assert own.exit_code == other.exit_code == 3
-    points = [text.stdout.splitlines()[-1].partition(" points")[0] for text in (own, other)]
-    assert points[0] == points[1]
-    assert "right    shutter_times" in own.stdout
-    assert "to do    to_object_space" in own.stdout
+@pytest.mark.usefixtures("lent_references")
+def test_a_notebook_is_checked_as_its_program_is(book: Path, tmp_path: Path) -> None:
+    program = as_program(book, tmp_path / "program")
+    other = run("check", "motion_blur", "--folder", str(program))
     # Places are those of the notebook: the function begins below the line of its magic.
     number = 1 + next(
         n
         for n, cell in enumerate(json.loads(book.read_text())["cells"])
         if "def displacement" in "".join(cell["source"])
     )
-    assert f"motion_blur.ipynb, cell {number}, line 2" in own.stdout
+    for arguments in (
+        [str(book)],
+        ["motion_blur", "--folder", str(book.parent)],
+        ["motion_blur", "--folder", str(book)],
+    ):
+        own = run("check", *arguments)
+        assert own.exit_code == other.exit_code == 3, arguments
+        points = [text.stdout.splitlines()[-1].partition(" points")[0] for text in (own, other)]
+        assert points[0] == points[1], arguments
+        assert "right    shutter_times" in own.stdout, arguments
+        assert "to do    to_object_space" in own.stdout, arguments
+        assert f"motion_blur.ipynb, cell {number}, line 2" in own.stdout, arguments
 
 
+@pytest.mark.usefixtures("lent_references")
 def test_what_python_stopped_at_is_told_by_its_cell(book: Path) -> None:
     document = json.loads(book.read_text())
     for cell in document["cells"]:
@@ -121,7 +124,10 @@ def test_what_python_stopped_at_is_told_by_its_cell(book: Path) -> None:
     assert f"motion_blur.ipynb, cell 6, line {line}: error: displacement" in shown.stdout
 
 
-def test_status_and_grades_are_those_of_the_program(book: Path, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("lent_references")
+def test_status_and_grades_are_those_of_the_program(
+    book: Path, tmp_path: Path, references_file: ReferencesFile
+) -> None:
     told = json.loads(run("status", "motion_blur", "--folder", str(book.parent), "--json").stdout)
     assert [one["state"] for one in told["functions"]] == ["right", "wrong", "to do"]
     assert {one["cell"] for one in told["functions"]} == {4, 6, 8}
@@ -131,9 +137,9 @@ def test_status_and_grades_are_those_of_the_program(book: Path, tmp_path: Path) 
         source = content or as_program(book, tmp_path / "program") / "motion_blur.py"
         (class_ / name / source.name).write_bytes(source.read_bytes())
     graded = tmp_path / "graded"
-    shown = run(
-        "grade", str(class_), "--out", str(graded), "--modules", "motion_blur", "--jobs", "1"
-    )
+    options = "--modules", "motion_blur", "--jobs", "1"
+    with at_hand(references_file):
+        shown = run("grade", str(class_), "--out", str(graded), *options)
     assert shown.exit_code == 0, shown.output
     rows = (graded / "grades.csv").read_text().splitlines()
     ada, ben = (next(row for row in rows if name in row).split(",") for name in ("ada", "ben"))
@@ -175,6 +181,7 @@ def test_a_wrong_result_is_told_by_cell_and_line(book: Path) -> None:
     assert f"in {book.name}, cell 6, line {line}: return velocity[9]" in said
 
 
+@pytest.mark.usefixtures("lent_references")
 def test_a_program_goes_before_a_notebook_and_that_is_told(book: Path) -> None:
     (book.parent / "motion_blur.py").write_text(program("motion_blur", "solutions"))
     shown = run("check", "motion_blur", "--folder", str(book.parent))
@@ -182,6 +189,7 @@ def test_a_program_goes_before_a_notebook_and_that_is_told(book: Path) -> None:
     assert "motion_blur.ipynb is left alone" in shown.stderr
 
 
+@pytest.mark.usefixtures("lent_references")
 def test_a_notebook_of_any_name_holds_what_it_defines(book: Path) -> None:
     book.rename(book.with_name("homework 3.ipynb"))
     shown = run("check", "motion_blur", "--folder", str(book.parent))

@@ -8,6 +8,8 @@ Every statistical test draws from a fixed seed, so it never fails by chance twic
 that a right function fails it with a seed that nobody has tried.
 """
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from itertools import product
 from math import prod
 
@@ -25,6 +27,16 @@ FALSE_FAIL = 1e-6
 """Of each statistical comparison."""
 
 Array = NDArray[np.floating]
+
+
+@contextmanager
+def named(case: str) -> Iterator[None]:
+    """One of many small cases of a test: thousands of tests would take longer to collect than to run."""
+    try:
+        yield
+    except BaseException as error:
+        error.add_note(f"in {case}")
+        raise
 
 
 def unit(rows: int, n: int, dtype: type = np.float32, seed: int = 0) -> Array:

@@ -1,6 +1,7 @@
 """Every function of the solutions, broken in one convention at a time: the declared check of it sees it."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,8 @@ from course.school.grading.checks.declare import Function
 from course.school.grading.checks.drawing import Draw
 from course.school.grading.checks.trusted import TrustedModule
 from course.school.grading.errors import StudentError
-from tests.school.solutions.contract import SOLUTIONS
-from tests.school.solutions.test_conventions import DECLARED
+from tests.school.solutions.contract import SOLUTIONS, named
+from tests.school.solutions.test_conventions import FUNCTIONS
 
 Solution = Callable[..., Any]
 
@@ -130,26 +131,22 @@ def has(function: Function, break_: Callable[..., Any]) -> bool:
     return True
 
 
-BROKEN = [
-    pytest.param(
-        module, function, law.name, break_, id=f"{module}.{function.name}-{break_.__name__}"
-    )
-    for module, declared in DECLARED.items()
-    for function in declared
-    for law in conventions(function)
-    for break_ in BREAKS[law.name]
-    if has(function, break_)
-]
-
-
-@pytest.mark.parametrize(("module", "function", "name", "break_"), BROKEN)
-def test_a_broken_convention_is_seen(
-    module: str, function: Function, name: str, break_: Callable[..., Any]
-) -> None:
+@FUNCTIONS
+def test_a_broken_convention_is_seen(module: str, function: Function) -> None:
     solve = SOLUTIONS.function(module, function.name)
-    caller = TrustedModule({function.name: lambda *given: break_(solve, *given)})
-    law = next(law for law in conventions(function) if law.name == name)
-    # Only what raises itself may end in anything but a verdict.
-    raises = break_ in (no_columns, needs_to_write)
-    with pytest.raises(StudentError if raises else Failure):
-        law.run(function, Trial(function.name, caller, np.random.default_rng(7)))
+    for law in conventions(function):
+        for break_ in BREAKS[law.name]:
+            if has(function, break_):
+                broken = partial(break_, solve)
+                trial = Trial(
+                    function.name,
+                    TrustedModule({function.name: broken}),
+                    np.random.default_rng(7),
+                )
+                # Only what raises itself may end in anything but a verdict.
+                raises = break_ in (no_columns, needs_to_write)
+                with (
+                    named(f"{law.name}: {break_.__name__}"),
+                    pytest.raises(StudentError if raises else Failure),
+                ):
+                    law.run(function, trial)

@@ -8,12 +8,12 @@ import pytest
 
 from course.school.grading.checks import declare, laws
 from course.school.grading.checks.check import Trial
-from course.school.grading.checks.declare import Arguments, Case, Function, Law
+from course.school.grading.checks.declare import Arguments, Case, Function
 from course.school.grading.checks.drawing import Draw
 from course.school.grading.checks.laws import DTYPES
 from course.school.grading.references import reference
-from tests.school.solutions.contract import assert_unit, worst_units
-from tests.school.solutions.test_conventions import DECLARED, FUNCTIONS
+from tests.school.solutions.contract import assert_unit, named, worst_units
+from tests.school.solutions.test_conventions import FUNCTIONS
 
 PRECISE = 1e-14
 """Takes the place of single precision's epsilon where all is computed in double precision."""
@@ -35,14 +35,6 @@ INEXACT = {
     *(f"critical_value/{law}" for law in ("one", "normal", "values", "hundreds")),
 }
 
-LAWS = [
-    pytest.param(name, function, law, id=f"{name}.{function.name}/{law.name}")
-    for name, functions in DECLARED.items()
-    for function in functions
-    for law in function.laws
-    if law.kind == "property" and f"{function.name}/{law.name}" not in INEXACT
-]
-
 
 class InDouble(Function):
     """Its batches are double precision, whatever a law asks for."""
@@ -51,13 +43,16 @@ class InDouble(Function):
         return super().make(draw.but(dtype=np.float64), case)
 
 
-@pytest.mark.parametrize(("module", "function", "law"), LAWS)
+@FUNCTIONS
 def test_in_double_precision_the_reference_is_as_exact(
-    module: str, function: Function, law: Law, monkeypatch: pytest.MonkeyPatch
+    module: str, function: Function, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(laws, "EPSILON", 1e-10 if function.name in ROUNDED else PRECISE)
-    trial = Trial(function.name, reference(module), np.random.default_rng(103))
-    law.run(InDouble(**vars(function)), trial)
+    for law in function.laws:
+        if law.kind == "property" and f"{function.name}/{law.name}" not in INEXACT:
+            trial = Trial(function.name, reference(module), np.random.default_rng(103))
+            with named(law.name):
+                law.run(InDouble(**vars(function)), trial)
 
 
 class AtItsEnds(Function):

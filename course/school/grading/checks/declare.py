@@ -13,7 +13,7 @@ from copy import deepcopy
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib import import_module
-from math import gcd
+from math import gcd, prod
 from typing import Any
 
 import numpy as np
@@ -239,13 +239,13 @@ class Function:
             return []
         ends = [argument.corners(draw.dtype) for argument in ended if argument.corners]
         sizes = [end.shape[-1] for end in ends]
-        index = np.indices(sizes).reshape(len(sizes), -1)
         # Not all pairs of hundreds of directions: every so manieth, and with no common divisor, all of each.
-        step = max(1, index.shape[1] // 997)
+        pairs = prod(sizes)
+        step = max(1, pairs // 997)
         while any(gcd(step, size) > 1 for size in sizes):
             step += 1
-        index = index[:, ::step]
-        a = self.make(draw.but(n=index.shape[1]))
+        index = np.unravel_index(np.arange(0, pairs, step), sizes)
+        a = self.make(draw.but(n=len(index[0])))
         for argument, end, chosen in zip(ended, ends, index, strict=True):
             a[argument.name] = np.ascontiguousarray(end[..., chosen])
         return [a]

@@ -8,12 +8,10 @@ has them without the submissions.
 """
 
 import json
-import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from functools import cache, lru_cache
 from importlib.resources import files
-from io import BytesIO
 from itertools import count, permutations, product
 from typing import Any
 from unittest.mock import patch
@@ -30,6 +28,9 @@ from course.school.grading.modules.generators import drawn
 
 PROBED = 24
 """Columns of a probe."""
+
+MOST = 3000
+"""Numbers of a result from which on it is thinned."""
 
 NEAR = 1e-3
 """Of a value, and of the typical one of its probe: that near are values that are alike."""
@@ -55,6 +56,12 @@ SLIPS = {
     "remembers-calls": "The same call gives another result the second time: something of the first is kept.",
 }
 """Mistakes that a failure shows by itself, in whatever function, and what the student is told."""
+
+HEAD = 8
+"""Bytes that say how long the table of a print's arrays is."""
+
+Probed = Iterable[tuple[str, Arguments]]
+"""All of ``probes``, made once for all submissions of a function."""
 
 Print = Mapping[str, Array]
 """What is kept of a submission: by probe, of its features, and what the student is told."""
@@ -85,11 +92,11 @@ def _fewer(function: Function, a: Arguments) -> Arguments:
     return a
 
 
-def taken(function: Function, caller: Caller) -> dict[str, Array]:
-    """The print of somebody's function."""
+def taken(function: Function, caller: Caller, probed: Probed) -> dict[str, Array]:
+    """The print of somebody's function; ``probed``: all of ``probes``, which are left as they are."""
     found: dict[str, Array] = {}
-    for name, a in probes(function):
-        for part, array in _outcome(caller, function, a).items():
+    for name, a in probed:
+        for part, array in _outcome(caller, function, deepcopy(a)).items():
             found[f"{name}:{part}"] = array
     features = _features(function, caller)
     if features is not None:
@@ -119,7 +126,7 @@ def _outcome(caller: Caller, function: Function, a: Arguments) -> dict[str, Arra
                         )
                     continue
                 array = np.asarray(part)
-                found[f"{number}"] = array.astype(np.float64).astype(np.float32)
+                found[f"{number}"] = _thinned(array).astype(np.float64).astype(np.float32)
                 found[f"{number}.dtype"] = np.array(str(array.dtype))
     except (TypeError, ValueError, OverflowError):
         return {"error": np.array("no numbers")}
@@ -128,6 +135,12 @@ def _outcome(caller: Caller, function: Function, a: Arguments) -> dict[str, Arra
         for new, old in zip(after, a.values(), strict=True)
     )
     return found | ({"wrote": np.array(True)} if wrote else {})
+
+
+def _thinned(array: Array) -> Array:
+    """Of a large array every so manieth column, from the last on: where a sum ends shows most of it."""
+    step = array.size // MOST
+    return array[..., ::-step] if step > 1 and array.ndim else array
 
 
 def _features(function: Function, caller: Caller, axes: bool = False) -> Array | None:
@@ -358,15 +371,20 @@ def _alike(one: Array, other: Array) -> bool:
 # ---------------------------------------------------------------- prints of known submissions
 
 
+_known = lru_cache(maxsize=1)(known)
+"""Each function of a module asks for them."""
+
+
 def prints(module: str, function: Function) -> Check:
     """The check whose arrays are the prints of the reference and of a function's known wrong submissions."""
 
     def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
-        found = {f"/{key}": value for key, value in taken(function, caller).items()}
-        for one in known(module):
+        probed = list(probes(function))
+        found = {f"/{key}": value for key, value in taken(function, caller, probed).items()}
+        for one in _known(module):
             if one.mistake not in ("", *SLIPS) and one.function == function.name:
-                found |= _print(function, one)
-        # One array of all: a file of thousands of small ones takes seconds to open.
+                found |= _print(function, one, probed)
+        # One array of all: a file of thousands of small ones takes seconds to write and to open.
         return {"packed": np.frombuffer(_packed(found), np.uint8).copy()}
 
     return Check(
@@ -375,18 +393,14 @@ def prints(module: str, function: Function) -> Check:
 
 
 def _packed(arrays: Mapping[str, Array]) -> bytes:
-    """A file as ``np.savez_compressed`` makes it, but for the time of day: the same arrays give the same bytes."""
-    file = BytesIO()
-    with zipfile.ZipFile(file, "w") as pack:
-        for name, array in arrays.items():
-            entry = zipfile.ZipInfo(f"{name}.npy")
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            with pack.open(entry, "w") as member:
-                np.lib.format.write_array(member, array, allow_pickle=False)
-    return file.getvalue()
+    """The length of a table of their names, dtypes and shapes, that table, and the numbers of all."""
+    rows = [(name, array.dtype.str, array.shape) for name, array in arrays.items()]
+    table = json.dumps(rows, separators=(",", ":")).encode()
+    numbers = (array.tobytes() for array in arrays.values())
+    return b"".join((len(table).to_bytes(HEAD, "little"), table, *numbers))
 
 
-def _print(function: Function, one: KnownSubmission) -> dict[str, Array]:
+def _print(function: Function, one: KnownSubmission, probed: Probed) -> dict[str, Array]:
     # Some draw numbers of their own: other ones in each call, but the same course gives the same bytes.
     draw, seeds = np.random.default_rng, count()
     seeded = patch(
@@ -394,7 +408,7 @@ def _print(function: Function, one: KnownSubmission) -> dict[str, Array]:
     )
     np.random.seed(0)  # noqa: NPY002
     with np.errstate(all="ignore"), seeded:
-        arrays = taken(function, trusted(one))
+        arrays = taken(function, trusted(one), probed)
     start = f"{one.mistake}~{one.name}"
     return {f"{start}/{key}": value for key, value in arrays.items()} | {
         f"{start}/says": np.array(one.says)
@@ -422,11 +436,13 @@ def mistake_of(
 def _unpacked(packed: bytes) -> Mapping[str, Mapping[str, Any]]:
     """Arrays that nobody may write to, by what they are of; whoever grades a class asks for the same often."""
     grouped: dict[str, dict[str, Any]] = {}
-    with np.load(BytesIO(packed), allow_pickle=False) as arrays:
-        for name in arrays.files:
-            start, _, key = name.partition("/")
-            array = grouped.setdefault(start, {})[key] = arrays[name]
-            array.setflags(write=False)
+    first = HEAD + int.from_bytes(packed[:HEAD], "little")
+    for name, dtype, shape in json.loads(packed[HEAD:first]):
+        start, _, key = name.partition("/")
+        # Bytes can't be written to, and so can't what looks at them.
+        array = np.ndarray(shape, dtype, packed, first)
+        grouped.setdefault(start, {})[key] = array
+        first += array.nbytes
     return grouped
 
 

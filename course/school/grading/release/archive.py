@@ -108,6 +108,9 @@ def write_archive(project: Path, out: Path, site: Path | None = None) -> int:
     LeakError
         See ``archive_contents``.
     """
+    if out.suffix != ".zip":
+        # Before the references are made, which takes a while.
+        check_folder(out)
     contents = archive_contents(project, site)
     if out.suffix == ".zip":
         return write_zip({f"penumbra/{name}": text for name, text in contents.items()}, out)

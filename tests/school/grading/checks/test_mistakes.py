@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from course.school.grading.checks.declare import function
-from course.school.grading.checks.mistakes import Print, matching, taken
+from course.school.grading.checks.mistakes import Print, matching, probes, taken
 from course.school.grading.checks.trusted import TrustedModule
 
 DISK = function(
@@ -41,7 +41,7 @@ WRONG = {
 
 
 def _print(warp: Warp) -> Print:
-    return taken(DISK, TrustedModule({"disk": warp}))
+    return taken(DISK, TrustedModule({"disk": warp}), probes(DISK))
 
 
 def _named(warp: Warp) -> str:

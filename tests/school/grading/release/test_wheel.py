@@ -163,7 +163,7 @@ def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> N
 
 
 def test_questions_are_written_from_the_wheel(course, tmp_path: Path) -> None:
-    written = course("quiz", "out", "--modules", "motion_blur", "--held-back")
+    written = course("quiz", "out", "--modules", "quasi_monte_carlo", "--held-back")
     assert written.returncode == 0, written.stderr
     assert "1 question" in written.stdout
     assert (tmp_path / "out" / "canvas.zip").is_file()
