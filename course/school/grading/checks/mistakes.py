@@ -17,6 +17,7 @@ from typing import Any
 from unittest.mock import patch
 
 import numpy as np
+from msgspec import msgpack
 
 from course.school.grading.checks.check import Array, Caller, Check, ModuleChecks, References, Trial
 from course.school.grading.checks.declare import Arguments, Function
@@ -56,9 +57,6 @@ SLIPS = {
     "remembers-calls": "The same call gives another result the second time: something of the first is kept.",
 }
 """Mistakes that a failure shows by itself, in whatever function, and what the student is told."""
-
-HEAD = 8
-"""Bytes that say how long the table of a print's arrays is."""
 
 Probed = Iterable[tuple[str, Arguments]]
 """All of ``probes``, made once for all submissions of a function."""
@@ -371,17 +369,13 @@ def _alike(one: Array, other: Array) -> bool:
 # ---------------------------------------------------------------- prints of known submissions
 
 
-_known = lru_cache(maxsize=1)(known)
-"""Each function of a module asks for them."""
-
-
 def prints(module: str, function: Function) -> Check:
     """The check whose arrays are the prints of the reference and of a function's known wrong submissions."""
 
     def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
         probed = list(probes(function))
         found = {f"/{key}": value for key, value in taken(function, caller, probed).items()}
-        for one in _known(module):
+        for one in known(module):
             if one.mistake not in ("", *SLIPS) and one.function == function.name:
                 found |= _print(function, one, probed)
         # One array of all: a file of thousands of small ones takes seconds to write and to open.
@@ -393,11 +387,8 @@ def prints(module: str, function: Function) -> Check:
 
 
 def _packed(arrays: Mapping[str, Array]) -> bytes:
-    """The length of a table of their names, dtypes and shapes, that table, and the numbers of all."""
-    rows = [(name, array.dtype.str, array.shape) for name, array in arrays.items()]
-    table = json.dumps(rows, separators=(",", ":")).encode()
-    numbers = (array.tobytes() for array in arrays.values())
-    return b"".join((len(table).to_bytes(HEAD, "little"), table, *numbers))
+    rows = [(name, one.dtype.str, one.shape, one.tobytes()) for name, one in arrays.items()]
+    return msgpack.encode(rows)
 
 
 def _print(function: Function, one: KnownSubmission, probed: Probed) -> dict[str, Array]:
@@ -436,13 +427,10 @@ def mistake_of(
 def _unpacked(packed: bytes) -> Mapping[str, Mapping[str, Any]]:
     """Arrays that nobody may write to, by what they are of; whoever grades a class asks for the same often."""
     grouped: dict[str, dict[str, Any]] = {}
-    first = HEAD + int.from_bytes(packed[:HEAD], "little")
-    for name, dtype, shape in json.loads(packed[HEAD:first]):
+    for name, dtype, shape, numbers in msgpack.decode(packed):
         start, _, key = name.partition("/")
         # Bytes can't be written to, and so can't what looks at them.
-        array = np.ndarray(shape, dtype, packed, first)
-        grouped.setdefault(start, {})[key] = array
-        first += array.nbytes
+        grouped.setdefault(start, {})[key] = np.ndarray(shape, dtype, numbers)
     return grouped
 
 
