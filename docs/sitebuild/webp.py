@@ -22,7 +22,7 @@ def on_screen(rendered: Picture) -> Image.Image:
     """
     if rendered.interrupted:
         raise KeyboardInterrupt
-    return Image.open(BytesIO(rendered._repr_png_())).convert("RGB")
+    return Image.fromarray(rendered.settings.display.codes(rendered.shown))
 
 
 def save(image: Image.Image, path: Path, quality: int, *, lossless: bool = False) -> None:
