@@ -137,8 +137,8 @@ def face_and_uv(direction):
         """
 def texture_lookup(image, uv):
     height, width = image.shape[:2]
-    found = _bilinear(image, uv[0] * width - 0.5, (1 - uv[1]) % 1 * height - 0.5)
-    return found.T.astype(uv.dtype)
+    place = uv[0] * width - 0.5, (1 - uv[1]) % 1 * height - 0.5
+    return np.stack([*_bilinear(image.reshape(-1, 3).T, (height, width), *place)]).astype(uv.dtype)
 """,
     ),
     "film.encode_srgb": Answer(
