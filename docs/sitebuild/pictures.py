@@ -31,7 +31,7 @@ NARROW = 400
 SAMPLES = 256
 """Samples a pixel at most, where a scene is as large as it says."""
 
-PATHS = 13_000_000
+PATHS = 12_000_000
 """Of a picture at most: it has fewer pixels where each has many samples, so that the whole site is drawn in minutes."""
 
 FEW = 4
