@@ -103,7 +103,8 @@ def _starved(made: ModuleType, right: ModuleType) -> Image.Image:
     offsets = right.regular(K, across * down)
     row, column = np.divmod(np.arange(across * down), across)
     bright = (column[:, None] + offsets[0] + 2 * (row[:, None] + offsets[1])) % 6 < 2.5
-    radiance = np.broadcast_to(bright, (3, *bright.shape)).astype(np.float32)
+    # In a colour, so that channels that are exchanged are seen.
+    radiance = np.multiply.outer(np.array((1, 0.7, 0.3), np.float32), bright)
     picture = made.resolve(radiance, right.gaussian_weights(offsets, np.float32(0.005)))
     return shown(picture.reshape(3, down, across).repeat(LARGE, axis=1).repeat(LARGE, axis=2))
 
