@@ -37,9 +37,10 @@ def rounded(value: Any) -> Any:
     """A number or numbers to five digits, as few characters as they need."""
     if value is None or isinstance(value, str):
         return value
-    if isinstance(value, tuple | list | np.ndarray):
-        # Python's own numbers are the faster ones.
-        return [rounded(each) for each in getattr(value, "tolist", value.__iter__)()]
+    if isinstance(value, np.ndarray):
+        value = value.tolist()  # Python's own numbers are the faster ones.
+    if isinstance(value, tuple | list):
+        return [rounded(each) for each in value]
     number = float(f"{float(value):.5g}")
     return (int(number) if number.is_integer() else number) if np.isfinite(number) else str(number)
 

@@ -98,18 +98,7 @@ def arranged(rooms: Uses) -> dict[str, float]:
     levels = floors(rooms)
     arrows = sorted(direct(rooms))
     height = {room: level for level, floor in enumerate(levels) for room in floor}
-    passed = [
-        (
-            upper,
-            lower,
-            [
-                (room, (height[upper] - level) / (height[upper] - height[lower]))
-                for room, level in height.items()
-                if height[lower] < level < height[upper]
-            ],
-        )
-        for upper, lower in arrows
-    ]
+    passed = [(upper, lower, [*_between(height, upper, lower)]) for upper, lower in arrows]
     needed = {room: wide(room) / 2 + MARGIN for room in rooms}
 
     def badness(middle: dict[str, float]) -> tuple[int, float, float]:
@@ -132,6 +121,13 @@ def arranged(rooms: Uses) -> dict[str, float]:
         {room: x for floor in chosen for room, x in floor.items()} for chosen in product(*ways)
     )
     return min(together, key=badness)
+
+
+def _between(height: dict[str, int], upper: str, lower: str) -> Iterator[tuple[str, float]]:
+    """Rooms on the floors between two, and the share of the way down at which an arrow is at theirs."""
+    for room, level in height.items():
+        if height[lower] < level < height[upper]:
+            yield room, (height[upper] - level) / (height[upper] - height[lower])
 
 
 def draw(canvas: Canvas, rooms: Uses, bottom: float, tall: dict[str, float]) -> None:

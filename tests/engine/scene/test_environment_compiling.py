@@ -16,10 +16,14 @@ from course.engine.core.environment import CubeEnvironment
 from course.engine.terms.environments.cube_faces import (
     cube_from_cross,
     cube_from_lat_long,
-    texel_directions,
 )
 from tests.engine.formats.pictures import picture_files
-from tests.engine.terms.environments.skies import cube_directions, gradient, paint_lat_long
+from tests.engine.terms.environments.skies import (
+    by_texel,
+    cube_directions,
+    gradient,
+    paint_lat_long,
+)
 
 MakeScene = Callable[..., Scene]
 Told = Callable[..., str]
@@ -147,15 +151,15 @@ def test_a_scale_beyond_float32_is_no_trouble_where_the_radiance_is_none(
 
 def test_texel_directions_are_opengls() -> None:
     for size in (1, 4):
-        d = texel_directions(size)
+        d = by_texel(size)
         assert d.shape == (6, size, size, 1, 3)
         unit = d[..., 0, :] / np.linalg.norm(d[..., 0, :], axis=-1, keepdims=True)
         assert np.allclose(np.moveaxis(unit, -1, 0), cube_directions(size), atol=1e-15)
         # Subsamples lie evenly in their texel: their mean is its centre.
-        assert np.allclose(texel_directions(size, 3).mean(axis=3), d[..., 0, :], atol=1e-15)
-        finer = texel_directions(2 * size)[..., 0, :]
+        assert np.allclose(by_texel(size, 3).mean(axis=3), d[..., 0, :], atol=1e-15)
+        finer = by_texel(2 * size)[..., 0, :]
         first = finer.reshape(6, size, 2, size, 2, 3)[:, 0, :, 0, :].reshape(6, 4, 3)
-        assert (texel_directions(size, 2)[:, 0, 0] == first).all()
+        assert (by_texel(size, 2)[:, 0, 0] == first).all()
 
 
 @pytest.mark.parametrize("size", [1, 2, 5])

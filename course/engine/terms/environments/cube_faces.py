@@ -14,18 +14,20 @@ AT_ONCE = 16_000
 """Samples of a face: what is computed of them stays in the processor's cache."""
 
 
-def texel_directions(size: int, subsamples: int = 1) -> Floats64:
-    """Directions through the texels of all faces, (6, size, size, subsamples^2, 3) float64, not normalised."""
-    place = _places(size * subsamples)
-    middle, right, down = FRAMES.swapaxes(0, 1)[:, :, None, None]
-    directions: Floats64 = middle + place[:, None] * right + place[:, None, None] * down
-    split = directions.reshape(6, size, subsamples, size, subsamples, 3)
-    return np.moveaxis(split, 2, 3).reshape(6, size, size, subsamples * subsamples, 3)
+def texel_directions(size: int, subsamples: int = 1, rows: slice = slice(None)) -> Floats64:
+    """Directions through samples of the texels of all faces, or of some of their rows.
 
-
-def _places(count: int) -> Floats64:
-    """The middles of as many equal parts of a face's edge, from -1 to 1."""
-    return (np.arange(count) + 0.5) * 2 / count - 1
+    Returns
+    -------
+    (6, 3, subsamples^2, rows, size) float64, not normalised
+    """
+    n = size * subsamples
+    places = ((np.arange(n) + 0.5) * 2 / n - 1).reshape(size, subsamples).T
+    across = np.tile(places, (subsamples, 1))[:, None]
+    along = np.repeat(places, subsamples, axis=0)[:, rows, None]
+    middle, right, down = FRAMES.swapaxes(0, 1)[..., None, None, None]
+    directions: Floats64 = middle + across * right + along * down
+    return directions
 
 
 def cube_from_lat_long(image: Floats32, size: int) -> Floats32:
@@ -101,16 +103,11 @@ def _resampled(
     faces = np.empty((6, size, size, 3), np.float32)
     shape = image.shape[:2]
     channels = np.ascontiguousarray(image.reshape(-1, 3).T, np.float64)
-    # The samples of texels: (subsamples^2, rows, columns), so that their sums are those of whole arrays.
-    places = _places(size * subsamples).reshape(size, subsamples).T
-    across = np.tile(places, (subsamples, 1))[:, None]
-    along = np.repeat(places, subsamples, axis=0)[:, :, None]
     height = max(AT_ONCE // (size * subsamples**2), 1)
-    for face, frame in zip(faces, FRAMES.swapaxes(1, 2), strict=True):
-        for first in range(0, size, height):
-            rows = slice(first, first + height)
-            x, y, z = (m + across * r + along[:, rows] * d for m, r, d in frame)
-            for channel, samples in enumerate(_bilinear(channels, shape, *place(x, y, z))):
+    for first in range(0, size, height):
+        rows = slice(first, first + height)
+        for face, xyz in zip(faces, texel_directions(size, subsamples, rows), strict=True):
+            for channel, samples in enumerate(_bilinear(channels, shape, *place(*xyz))):
                 face[rows, :, channel] = samples.mean(axis=0)
     return faces
 

@@ -22,7 +22,7 @@ GRADIENTS: Final = np.array(
 """(12, 3): from the middle of a cube to the middles of its edges."""
 
 TABLE: Final = np.tile(np.random.default_rng(1985).permutation(PERIOD), 2)
-"""Shuffled numbers below `PERIOD`, twice: a number of the table, a whole point's and 1 are a place of it."""
+"""Shuffled numbers below `PERIOD`, twice over: places are sums of one of them, a whole point's remainder and 0 or 1."""
 
 DIRECTIONS: Final = np.ascontiguousarray(GRADIENTS[TABLE % len(GRADIENTS)].T)
 """(3, 2 PERIOD): directions by place of the table."""

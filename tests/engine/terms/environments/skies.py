@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from course.engine.terms.environments.cube_faces import texel_directions
 from tests.engine.formats.pictures import picture_files
 
 Array = NDArray[np.float64]
@@ -29,6 +30,11 @@ TABLE = (
 def gradient(direction: Array) -> Array:
     """1 + x, 1 + y, 1 + z: no two directions look the same."""
     return 1 + direction
+
+
+def by_texel(size: int, subsamples: int = 1) -> Array:
+    """The course's directions through samples of texels, (6, row, column, sample, 3)."""
+    return np.moveaxis(texel_directions(size, subsamples), (1, 2), (-1, -2))
 
 
 def cube_directions(size: int) -> Array:

@@ -19,7 +19,6 @@ from course.engine.functions.effects import Effects
 from course.engine.terms.environments.cube_faces import (
     cube_from_cross,
     cube_from_lat_long,
-    texel_directions,
 )
 from course.engine.terms.environments.sampling import (
     CELLS,
@@ -31,6 +30,7 @@ from course.engine.terms.environments.sampling import (
 )
 from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.hemisphere import cosine_directions
+from tests.engine.terms.environments.skies import by_texel
 from tests.lengths import fewer
 
 Array = NDArray[np.float64]
@@ -60,7 +60,7 @@ def sun(size: int = 256, radiance: float = 40000.0, row: int | None = None) -> F
 
 def waves(size: int = 40) -> Faces:
     """A sky that turns a few times in every direction, a third of it black."""
-    d = texel_directions(size)[..., 0, :]
+    d = by_texel(size)[..., 0, :]
     d /= np.linalg.norm(d, axis=-1, keepdims=True)
     value = np.sin(5 * d[..., 0] + 1) + np.sin(7 * d[..., 1]) + np.sin(6 * d[..., 2] + 2)
     return (np.maximum(value - 0.4, 0)[..., None] * (1.0, 0.5, 0.2)).astype(np.float32)
@@ -238,12 +238,12 @@ def test_the_density_integrates_to_one_over_the_sphere(
     size = probabilities(product, normal).shape[1]
     # Two by two points of Gauss in each texel, where the density is smooth.
     total = 0.0
-    four = texel_directions(2)[..., 0, :]
+    four = by_texel(2)[..., 0, :]
     right, down = four[:, 0, 1] - four[:, 0, 0], four[:, 1, 0] - four[:, 0, 0]
     for s in (-1, 1):
         for t in (-1, 1):
             aside = (s * right + t * down) / (size * math.sqrt(3))
-            d = (texel_directions(size)[..., 0, :] + aside[:, None, None]).reshape(-1, 3).T
+            d = (by_texel(size)[..., 0, :] + aside[:, None, None]).reshape(-1, 3).T
             r = np.linalg.norm(d, axis=0)
             total += float((density(product, normal, d / r) / r**3).sum()) / size**2
     assert total == pytest.approx(1, abs=1e-6)
@@ -283,7 +283,7 @@ def test_no_direction_with_light_has_density_zero(size: int, seamless: bool) -> 
             assert size == 1, "a texel in six is wide"
             continue
         # Directions all about the texel, on whatever faces they are.
-        centre = texel_directions(size)[face, row, column, 0]
+        centre = by_texel(size)[face, row, column, 0]
         d = centre[:, None] / np.linalg.norm(centre) + rng.normal(size=(3, 4000)) * 1.5 / size
         d = (d / np.linalg.norm(d, axis=0)).astype(np.float32)
         bright = np.flatnonzero(LOOKUPS[seamless](faces, d).max(axis=0) > 0)
@@ -367,7 +367,7 @@ def by_quadrature(faces: Faces, normals: Array, size: int) -> tuple[Array, Array
 
     In the middles of size x size squares of each face.
     """
-    d = texel_directions(size).reshape(-1, 3).T
+    d = by_texel(size).reshape(-1, 3).T
     r = np.linalg.norm(d, axis=0)
     light = LOOKUPS[True](faces, d)
     both = np.concatenate((light, light**2)) * (4 / size**2 / np.pi / r**4)
@@ -469,7 +469,7 @@ def test_stratified_numbers_draw_stratified_rows() -> None:
 
 
 def test_even_skies_keep_the_cosine() -> None:
-    d = texel_directions(32)[..., 0, :]
+    d = by_texel(32)[..., 0, :]
     d /= np.linalg.norm(d, axis=-1, keepdims=True)
     for value in (np.ones(d.shape[:3]), 1 + 0.5 * d[..., 1], 1e-12 + 0 * d[..., 0]):
         faces = (value[..., None] * (0.3, 0.6, 1.0)).astype(np.float32)

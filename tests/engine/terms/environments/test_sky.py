@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 from course import Scene, render
 from course.engine.core.environment import ConstantEnvironment, CubeEnvironment
 from course.engine.formats.pictures.files import save
-from course.engine.terms.environments.cube_faces import texel_directions
 from course.engine.terms.environments.sampling import ProductSampling
 from course.engine.terms.environments.sky import CosineSampling
 from course.engine.terms.scattering.hemisphere import cosine_directions
 from tests.conftest import MakeScene
+from tests.engine.terms.environments.skies import by_texel
 from tests.estimates import estimate
 from tests.lengths import fewer
 
@@ -51,14 +51,14 @@ def sunny() -> NDArray[np.float32]:
 
 def towards_sun() -> tuple[Array, float]:
     """Unit vector, and the solid angle of a texel there: bilinear interpolation keeps the texel's light."""
-    d = texel_directions(SIZE)[2, ROW, COLUMN, 0]
+    d = by_texel(SIZE)[2, ROW, COLUMN, 0]
     r = float(np.linalg.norm(d))
     return d / r, 4 / SIZE**2 / r**3
 
 
 def uneven() -> NDArray[np.float32]:
     """Bright all around one horizontal direction, so that both ways to sample have a small variance."""
-    d = texel_directions(24)[..., 0, :]
+    d = by_texel(24)[..., 0, :]
     d /= np.linalg.norm(d, axis=-1, keepdims=True)
     glow = 0.2 + 4 * np.exp(-8 * (1 - d @ np.array([0.8, 0.6, 0])))
     return (glow[..., None] * (1.0, 0.8, 0.5)).astype(np.float32)
