@@ -152,7 +152,8 @@ def test_the_rays_of_a_pixel_are_followed_once(
 ) -> None:
     followed = []
     monkeypatch.setattr(rays, "_page", lambda *pixel: followed.append(pixel) or "rays")
-    file, other = (rays.view("film", x, 9, tmp_path) for x in (7, 8))
-    assert file != other
-    assert rays.view("film", 7, 9, tmp_path) == file
-    assert followed == [("film", 7, 9, None), ("film", 8, 9, None)]
+    pixels = [("film", 7, 9), ("film", 8, 9), ("film", 7, 8), ("glossy", 7, 9)]
+    files = [rays.view(*pixel, tmp_path) for pixel in pixels]
+    assert len({*files}) == len(pixels)
+    assert [rays.view(*pixel, tmp_path) for pixel in pixels] == files
+    assert followed == [(*pixel, None) for pixel in pixels]
