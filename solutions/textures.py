@@ -41,7 +41,7 @@ def rectangle_uv(p, p1, p2, p3):
     edges = np.stack([p2 - p1, p3 - p1])
     # The part of p - p1 along an edge, in lengths of that edge.
     scaled = edges / (edges * edges).sum(axis=1, keepdims=True)
-    return scaled.astype(p.dtype) @ (p - p1.astype(p.dtype)[:, None])
+    return np.einsum("ij,jn->in", scaled.astype(p.dtype), p - p1.astype(p.dtype)[:, None])
     ### END SOLUTION
 
 

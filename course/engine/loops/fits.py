@@ -10,6 +10,8 @@ from functools import cache
 from types import NoneType
 from typing import Any
 
+import numpy as np
+
 from course.engine.core.accelerator import StaticAccelerator
 from course.engine.core.camera import Camera, Lens
 from course.engine.core.direct import DirectLight
@@ -32,6 +34,7 @@ from course.engine.terms.environments.sampling import ProductSampling
 from course.engine.terms.environments.sky import Sky
 from course.engine.terms.lights.mesh_light import MeshLight
 from course.engine.terms.lights.own_lamp import LampAccelerator
+from course.engine.terms.lights.spot_light import SpotLight
 from course.engine.terms.lights.visible_sphere import VisibleSphereLight
 from course.engine.terms.paths.bounce import PathBounce
 from course.engine.terms.paths.path_tracing import PathIntegrator
@@ -40,8 +43,13 @@ from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.absorption import Absorption
 from course.engine.terms.scattering.scatter import FullScatter
 from course.engine.terms.shafts.stage import Shafts
+from course.engine.terms.surfaces.bump_maps import BumpMap, NoiseHeights, PictureHeights
+from course.engine.terms.surfaces.normal_maps import NormalMap, Relief
+from course.engine.terms.surfaces.painting import Painting
+from course.engine.terms.surfaces.perlin import PerlinNoise
 from course.engine.terms.surfaces.surface import FullSurface
 from course.engine.terms.surfaces.swept_movers import SweptMovers
+from course.engine.terms.surfaces.textures import Laid, OnMesh, OnRectangle, OnSphere, Texture
 
 DEEPEST = 64
 """Most bounces: the loop keeps room for the rays of each depth."""
@@ -89,6 +97,11 @@ def _owned(functions: Functions | None, *names: str) -> bool:
     return all(courses_own(there[name]) for name in names if name in there)
 
 
+def _lies_in_rows(image: Any) -> bool:
+    """Whether a picture is read by an address."""
+    return bool(image.dtype == np.float32 and image.flags.c_contiguous)
+
+
 _INTEGRATOR = "surface camera motion environment direct absorption scatter"
 _SHOWN = "environment_depth ambient dark_inside glow emission max_depth"
 _SCATTER = "surface mirror index absorbs outside cutoff"
@@ -118,8 +131,26 @@ KNOWN: dict[type, Known] = {
     ),
     Surface: Known("accelerator", "triangles"),
     FullSurface: Known(
-        "accelerator", "triangles spread", "painting relief shine turned kept through"
+        "accelerator painting relief", "triangles spread", "shine turned kept through"
     ),
+    Painting: Known("color_at", "row corners number"),
+    Relief: Known("maps"),
+    Laid: Known("texture places"),
+    NormalMap: Known("color places", "wraps"),
+    BumpMap: Known("heights", "height"),
+    PictureHeights: Known("picture", "step"),
+    NoiseHeights: Known("noise"),
+    PerlinNoise: Known("", "conversion"),
+    Texture: Known(
+        "",
+        "image repeat lookup nearest",
+        also=lambda t: courses_own(t.lookup) and _lies_in_rows(t.image),
+    ),
+    OnRectangle: Known(
+        "", "corner along across rectangle_uv", also=lambda p: courses_own(p.rectangle_uv)
+    ),
+    OnSphere: Known("", "sphere_uv", also=lambda p: courses_own(p.sphere_uv)),
+    OnMesh: Known("", "triangle_uv", also=lambda p: courses_own(p.triangle_uv)),
     StaticAccelerator: Known(),
     LampAccelerator: Known(),
     MovingAccelerator: Known("static movers motion"),
@@ -151,6 +182,7 @@ KNOWN: dict[type, Known] = {
             and (s.samples != "facing disk" or _owned(s.soft_shadows, POINTS_ON_SPHERES[s.samples]))
         ),
     ),
+    SpotLight: Known("", f"{_LIGHT} position normal two_sided visible blockable axis inner outer"),
     MeshLight: Known("", f"{_LIGHT} shares planes edges limit"),
     VisibleSphereLight: Known("", f"{_LIGHT} center radius limit"),
     Scatter: Known("gloss", _SCATTER),

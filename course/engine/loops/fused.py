@@ -38,10 +38,12 @@ from course.engine.loops import (
 )
 from course.engine.loops.fits import depths_of_lights, makes_camera_rays, placed_before
 from course.engine.loops.packets import WIDTH, aligned
+from course.engine.loops.paint_tables import paint_tables
 from course.engine.loops.scene_tables import SceneTables, scene_tables
 from course.engine.terms.cameras.near_plane import NearPlaneCamera
 from course.engine.terms.environments.sky import COST, NUMBERS
 from course.engine.terms.lights.mesh_light import MeshLight
+from course.engine.terms.lights.spot_light import SpotLight
 from course.engine.terms.lights.visible_sphere import VisibleSphereLight
 from course.engine.terms.paths.path_tracing import Glow, PathIntegrator
 from course.engine.terms.plan import BOUNCE, CHOICE, same_fields
@@ -109,6 +111,8 @@ def _lamp(light: Light) -> _Lamp:
     if type(light) is PointLight:
         place: Any = (light.position, nowhere, nowhere)
         return _Lamp(lamp_kernels.AT_A_POINT, place, *_emitting(light))
+    if type(light) is SpotLight:
+        return _Lamp(lamp_kernels.SPOT, (light.position, light.axis, nowhere))
     if type(light) is RectangleLight:
         place = light.corner, light.edge_u, light.edge_v
         return _Lamp(lamp_kernels.RECTANGLE, place, *_emitting(light))
@@ -135,6 +139,9 @@ def _lights(integrator: Integrator, dimensions: Dimensions) -> lamp_kernels.Ligh
     radius = np.array([lamp.radius for lamp in lamps])
     with np.errstate(divide="ignore"):
         radii = np.stack((radius, 2 * radius, -1 / radius, radius * radius), axis=1)
+    for k, light in enumerate(lights):
+        if isinstance(light, SpotLight):
+            radii[k, :2] = light.falloff
     return lamp_kernels.Lights(
         kind=np.array([lamp.kind for lamp in lamps], np.int64),
         emitter=np.array([lamp.emitter for lamp in lamps], np.int64),
@@ -267,6 +274,7 @@ def _scene(integrator: Integrator, tables: SceneTables) -> fused_kernels.FusedSc
         triangles.material,
         np.float32(triangles.largest_sine + ROUNDING),
         _NO_BOXES if tables.convex is None else tables.convex.boxes,
+        *paint_tables(integrator.surface),
     )
 
 

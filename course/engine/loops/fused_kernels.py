@@ -48,6 +48,7 @@ from course.engine.loops.lanes import (
     START,
     THROUGHPUT,
     TIME,
+    TINT,
     TRIANGLE,
     A,
     B,
@@ -70,8 +71,10 @@ from course.engine.loops.packet_kernels import (
     intersect,
 )
 from course.engine.loops.packets import COHERENT
+from course.engine.loops.paint_kernels import FusedPainting, paint
 from course.engine.loops.path_kernels import bounce
 from course.engine.loops.point_kernels import pull, to_viewer
+from course.engine.loops.relief_kernels import carve
 from course.engine.loops.shaft_kernels import find_cells
 
 CHUNK = 1024
@@ -102,6 +105,7 @@ class FusedScene(NamedTuple):
     scenes, blockers : (1 + K,) addresses, of the latter shadow rays are asked
     first : (1 + K,) the first triangle of what stands still and of each mover
     objects : (2 K, 3) boxes of objects of which some are convex; (0, 3) where none is left out
+    painting, relief : textures, and what bends normals
     """
 
     scenes: NDArray[np.uintp]
@@ -117,6 +121,8 @@ class FusedScene(NamedTuple):
     material: Materials
     most: np.float32
     objects: Floats32
+    painting: FusedPainting
+    relief: FusedPainting
 
 
 class Reflectances(NamedTuple):
@@ -441,7 +447,7 @@ def _absorb(materials, outside, eye, of_camera, call, s, whole):
 
 
 @njit(**LEAN)
-def _reflect(materials, s, whole):
+def _reflect(materials, painted, s, whole):
     """What the hits send to the viewer into ``DIFFUSE``; see ``BlinnPhong.reflected`` and ``Integrator.shade``."""
     dark_sides, ambient = len(materials.dark_inside) > 0, materials.ambient.shape[1] > 0
     for i in range(WIDTH):
@@ -451,6 +457,9 @@ def _reflect(materials, s, whole):
     for c in range(3):
         row = DIFFUSE + c * WIDTH
         _weigh(materials.diffuse[c], s, whole, row)
+        if painted:
+            for i in range(WIDTH):
+                s[row + i] *= s[TINT + c * WIDTH + i]
         if len(materials.exponent):
             _weigh(materials.specular[c], s, whole, SPECULAR + c * WIDTH)
             for i in range(WIDTH):
@@ -458,6 +467,7 @@ def _reflect(materials, s, whole):
         if ambient:
             for i in range(WIDTH):
                 light = materials.ambient[c, np.uint64(whole[MATERIAL + i])]
+                light *= s[TINT + c * WIDTH + i] if painted else _ONE
                 s[row + i] += light if s[A + i] > 0 else _NOTHING
         if materials.glow.shape[1]:
             for i in range(WIDTH):
@@ -542,7 +552,7 @@ def _shade(
         counts[SHADOW_RAYS] += shadows
         if len(film.cost) and shadows:
             _charge(film, film.prices[3], ASKED, count, whole)
-    _reflect(materials, s, whole)
+    _reflect(materials, len(scene.painting.row) > 0, s, whole)
 
 
 @njit(**LEAN)
@@ -681,6 +691,10 @@ def follow(
                 if len(film.cost):
                     _charge(film, film.prices[0], HIT, count, whole)
                 _find(scene, s, whole)
+                if len(scene.relief.row):
+                    carve(scene.relief, scratch.call, s, whole)
+                if len(scene.painting.row):
+                    paint(scene.painting, scratch.call, s, whole)
                 if absorbs:
                     outside = scattering.outside
                     _absorb(materials, outside, eye, depth == 0, scratch.call, s, whole)
@@ -711,7 +725,8 @@ def follow(
                             paths,
                             scattering,
                             materials.dark_inside,
-                            len(scene.corner_normals) > 0,
+                            len(scene.corner_normals) > 0 or len(scene.relief.row) > 0,
+                            len(scene.painting.row) > 0,
                             numbers,
                             depth,
                             pairs,

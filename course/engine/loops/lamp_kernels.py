@@ -61,7 +61,7 @@ from course.engine.loops.packet_kernels import U as HIT_U
 from course.engine.loops.packet_kernels import V as HIT_V
 from course.engine.loops.shaft_kernels import spare
 
-AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE, TRIANGLES = range(8)
+AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE, TRIANGLES, SPOT = range(9)
 """Kinds of lights."""
 
 _NOTHING, _ONE, _TWO = np.float32(0), np.float32(1), np.float32(2)
@@ -79,11 +79,12 @@ class Lights(NamedTuple):
 
     Attributes
     ----------
-    kind : (L,) AT_A_POINT ... TRIANGLES
+    kind : (L,) AT_A_POINT ... SPOT
     emitter : (L,) 0 for a light by intensity, 1 for one by radiance, 2 if both its sides shine
-    place : (L, 3, 3) float32: position, centre, corner or direction to the light; edges
+    place : (L, 3, 3) float32: position, centre, corner or direction to the light; edges, or the axis of a cone
     normal : (L, 3) float64 of flat emitters
-    radius : (L, 4) float32, the radius, its double, -1 / radius, and its square
+    radius : (L, 4) float32, the radius, its double, -1 / radius, and its square; 1 - cos of a cone's outer angle, and
+        over which light falls off
     color : (L, 3) float32
     limit : (L,) float32 length of the shadow rays, in lengths of the vector to the light
     velocity : (L, 3) float32; of no meaning where ``moves`` (L,) is false
@@ -117,6 +118,20 @@ def _on_sphere(call, s, radius, twice):
         s[SHADOW_TO + i] = r * s[A + i]
         s[SHADOW_TO + _Y + i] = r * s[B + i]
         s[SHADOW_TO + _Z + i] = radius * (_ONE - _TWO * u)
+
+
+@njit(**LEAN)
+def _within_cone(axis, outer, edge, s):
+    """What of its intensity a ``SpotLight`` sends to each hit, into ``FACTOR``."""
+    for i in range(WIDTH):
+        inverse = s[INVERSE + i]
+        x = -s[SHADOW_TO + i] * inverse - axis[0]
+        y = -s[SHADOW_TO + _Y + i] * inverse - axis[1]
+        z = -s[SHADOW_TO + _Z + i] * inverse - axis[2]
+        share = (outer - (_NOTHING + x * x + y * y + z * z) / _TWO) / edge
+        share = min(max(share, _NOTHING), _ONE)
+        share *= share
+        s[FACTOR + i] *= share * share
 
 
 @njit(**LEAN)
@@ -189,7 +204,7 @@ def _sample(lights, k, call, s):
         towards_triangles(lights.meshes, k, s)
         return
     radius, twice, inward = lights.radius[k, 0], lights.radius[k, 1], lights.radius[k, 2]
-    if kind == AT_A_POINT:
+    if kind in (AT_A_POINT, SPOT):
         for i in range(WIDTH):
             s[SHADOW_TO + i], s[SHADOW_TO + _Y + i], s[SHADOW_TO + _Z + i] = x0, y0, z0
     elif kind == RECTANGLE:
@@ -226,6 +241,8 @@ def _sample(lights, k, call, s):
         factor = _ONE / max(x * x + y * y + z * z, _LEAST)
         s[SHADOW_TO + i], s[SHADOW_TO + _Y + i], s[SHADOW_TO + _Z + i] = x, y, z
         s[INVERSE + i], s[FACTOR + i] = np.sqrt(factor), factor
+    if kind == SPOT:
+        _within_cone(lights.place[k, 1], lights.radius[k, 0], lights.radius[k, 1], s)
     if not emitter:
         return
     if kind == SPHERE:

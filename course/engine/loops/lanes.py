@@ -29,9 +29,11 @@ PLANE, EDGES, CORNERS = (_FIRST + (54 + number) * WIDTH for number in (0, 8, 15)
 """Columns of the hit triangles in ``Triangles``."""
 CUBE, OWNER, KNOWN = (_FIRST + (78 + number) * WIDTH for number in range(3))
 """Integers: the halves of the key of each hit's cell, and a mask of shadow rays that a shaft may tell of."""
-STRENGTH = _FIRST + 81 * WIDTH
+TINT, WEIGHTS, PLACE = (_FIRST + (81 + number) * WIDTH for number in (0, 3, 6))
+"""Colours of textures, barycentrics, and three places in a picture, two rows each."""
+STRENGTH = _FIRST + 93 * WIDTH
 """What each group of a light of triangles sends to a point."""
-ALL_ROWS = 3 * ROWS + 54 + 27 + -(-GROUPS // WIDTH)
+ALL_ROWS = 3 * ROWS + 54 + 39 + -(-GROUPS // WIDTH)
 
 _integers = (number * WIDTH for number in range(15))
 (

@@ -12,6 +12,7 @@ from typing import Any
 
 from course.base.errors import CourseError
 from course.engine.casters.choice import chosen
+from course.engine.loops.numpy_loops import loops
 
 NATIVE = {16: 34, 8: 33, 4: 32}
 """Rays of a packet -> the property of Embree's device that is not 0 where it follows so many at once."""
@@ -24,8 +25,8 @@ _KINDS = ("rtcIntersect", "rtcOccluded")
 
 @cache
 def available() -> bool:
-    """Whether Numba is installed, and the caster takes packets: of embreex, its library has what is needed."""
-    if find_spec("numba") is None:
+    """Whether Numba is installed, NumPy's loops are found, and the caster takes packets: embreex's library can."""
+    if find_spec("numba") is None or loops() is None:
         return False
     return chosen() == "numba" or (chosen() == "embree" and library() is not None)
 

@@ -40,9 +40,12 @@ def njit(*signature: Any, **options: Any) -> Callable[[Callable[..., Any]], Any]
 _INNER = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 """Neither Python nor C calls such parts. An entrance would take apart every array: a sixth of the time to compile."""
 
-LEAN = OPTIONS | _INNER | {"_nrt": False, "forceinline": True}
+APART = OPTIONS | _INNER | {"_nrt": False}
 """For parts of the fused loop: arrays aren't counted whenever one is handed on, which would take more time than the
-arithmetic. So none can be made there."""
+arithmetic. So none can be made there. These parts are called: they are long, or called at many places."""
+
+LEAN = APART | {"forceinline": True}
+"""The same for parts that become a piece of what calls them."""
 
 
 forget_older_loops(Path(__file__).parent)

@@ -30,6 +30,7 @@ from course.engine.loops.lanes import (
     PATHS,
     SIDE,
     THROUGHPUT,
+    TINT,
     WAY,
     A,
     B,
@@ -139,6 +140,7 @@ def bounce(
     scattering,
     dark_inside,
     smooth,
+    painted,
     numbers,
     depth,
     stride,
@@ -155,7 +157,7 @@ def bounce(
     Parameters
     ----------
     dark_inside : (M,), (0,) where no dielectric is dark inside
-    smooth : true if the scene has interpolated normals
+    smooth, painted : true if the scene has normals that aren't those of its triangles, and if it has textures
     stride : pairs of dimensions that a bounce draws
     scattered, others : (k, 16) float32, from the place on where the next rays go; those of mirrors and glass are others
     """
@@ -168,6 +170,7 @@ def bounce(
         for c in range(3):
             row = c * WIDTH + i
             albedo = _NOTHING if dark else paths.albedo[c, m]
+            albedo *= s[TINT + row] if painted else _ONE
             s[AFTER + row] = s[THROUGHPUT + row] * albedo
         optical |= hit & paths.optical[m]
         hits += hit

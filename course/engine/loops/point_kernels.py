@@ -42,12 +42,17 @@ def pull(k, a, b, x, y, z, planes, edges, inset):
 
 
 @njit(**LEAN)
-def to_viewer(nx, ny, nz, side, dx, dy, dz):
-    """A unit normal on one side, turned until it doesn't face away from a ray; see ``turn_to_viewer``."""
-    scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
-    nx, ny, nz = nx * scale * side, ny * scale * side, nz * scale * side
+def turned(nx, ny, nz, dx, dy, dz):
+    """A unit normal, turned until it doesn't face away from a ray; see ``turn_to_viewer``."""
     away = nx * dx + ny * dy + nz * dz
     x, y, z = nx - away * dx, ny - away * dy, nz - away * dz
     scale = _ONE / np.sqrt(max(x * x + y * y + z * z, _LEAST))
     turns = away > 0
     return (x * scale if turns else nx, y * scale if turns else ny, z * scale if turns else nz)
+
+
+@njit(**LEAN)
+def to_viewer(nx, ny, nz, side, dx, dy, dz):
+    """A normal of unit length on one side, turned to the viewer."""
+    scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
+    return turned(nx * scale * side, ny * scale * side, nz * scale * side, dx, dy, dz)

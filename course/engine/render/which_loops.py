@@ -59,8 +59,8 @@ def wants_compiled(settings: SceneSettings, wanted: bool | None) -> bool:
     """
     if wanted and not available():
         raise CourseError(
-            "compiled loops need Numba (pip install .[fast]), and a caster that they can call:"
-            f" {VARIABLE} must not be numpy"
+            "compiled loops need Numba (pip install .[fast]), a NumPy whose own loops are found, and a caster that they"
+            f" can call: {VARIABLE} must not be numpy"
         )
     if wanted is not None:
         return wanted

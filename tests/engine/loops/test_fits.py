@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT, Effects
-from course.engine.loops import library
+from course.engine.loops import library, numpy_loops
 from course.engine.loops.fits import (
     KNOWN,
     fits,
@@ -56,7 +57,8 @@ def test_all_fields_of_a_part_that_fits_are_listed(kind: type) -> None:
         ("soft_shadows", True),
         ("motion_blur", True),
         ("path_tracing", True),
-        ("textures", False),
+        ("textures", True),
+        ("gallery/stage", True),
         ("many_lights", False),
         ("microfacets", False),
         ("bounding_volumes", False),
@@ -202,6 +204,10 @@ def test_a_students_other_functions_are_called_by_batches() -> None:
     for name, function in (
         ("motion_blur", "motion_blur.to_object_space"),
         ("glossy", "glossy.keep_above"),
+        ("textures", "textures.rectangle_uv"),
+        ("textures", "textures.sphere_uv"),
+        ("textures", "textures.triangle_uv"),
+        ("textures", "textures.texture_lookup"),
     ):
         scene = load_scene(SCENES / f"{name}.yaml", Swapped(function))
         assert not fits(bound(scene, sampler="sobol")), function
@@ -216,7 +222,23 @@ def test_the_answer_reads_no_loop() -> None:
     program = (
         "import sys; from course import load_scene; from course.engine.loops.fits import fits;"
         "from course.engine.render.binding import bind;"
-        f"scene = load_scene({str(SCENES / 'textures.yaml')!r});"
+        f"scene = load_scene({str(SCENES / 'microfacets.yaml')!r});"
         "assert not fits(bind(scene, scene.settings)); assert 'numba' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_without_numpys_own_loops_batches_render(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A NumPy that keeps them elsewhere: nothing is compiled that would call what isn't there."""
+    monkeypatch.setattr(numpy_loops, "_FUNCTIONS", numpy_loops._DATA)
+    for cached in (library.available, numpy_loops.loops):
+        cached.cache_clear()
+    try:
+        assert numpy_loops.loops() is None
+        assert not library.available()
+        assert render(scene_of("soft_shadows"), spp=1, size=(8, 6)).linear.any()
+        with pytest.raises(CourseError, match="a NumPy whose own loops are found"):
+            render(scene_of("soft_shadows"), spp=1, size=(8, 6), compiled=True)
+    finally:
+        for cached in (library.available, numpy_loops.loops):
+            cached.cache_clear()

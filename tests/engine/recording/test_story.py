@@ -307,13 +307,20 @@ def test_each_hit_s_walk_down_the_light_tree_is_recorded() -> None:
     assert all(0 < call.results["probability"] <= 1 for call in calls)
 
 
-@pytest.mark.parametrize("textured", [False, True])
+@pytest.mark.parametrize("facets", [False, True])
 def test_shafts_are_told_of_scenes_alone_whose_loop_looks_at_them(
-    make_scene: MakeScene, textured: bool
+    make_scene: MakeScene, facets: bool
 ) -> None:
-    """A floor under a lamp; a texture is nothing that the loop knows."""
+    """A floor under a lamp; microfacets are nothing that the loop knows."""
     floor: dict[str, Any] = {"shape": "quad", "width": 9, "depth": 9, "material": "floor"}
-    material: dict[str, Any] = {"noise": {}} if textured else {}
+    material: dict[str, Any] = (
+        {
+            "mirror": 0.5,
+            "conductor": {"roughness": 0.4, "refraction_index": 2.9, "absorption_index": 3},
+        }
+        if facets
+        else {}
+    )
     scene = make_scene(
         camera={"eye": [0, 4, 6], "look_at": [0, 0, 0]},
         film={"width": 512, "height": 512},
@@ -323,6 +330,4 @@ def test_shafts_are_told_of_scenes_alone_whose_loop_looks_at_them(
         lights=[{"type": "sphere", "center": [0, 5, 0], "radius": 0.5, "intensity": 100}],
     )
     told = " ".join(texts(pixel(scene, 256, 256).tree))
-    assert ("shafts: a render doesn't send 64 with nothing" in told) == (
-        available() and not textured
-    )
+    assert ("shafts: a render doesn't send 64 with nothing" in told) == (available() and not facets)

@@ -20,7 +20,14 @@ from course.engine.scene.building.materials import ambient_color, base_color, ha
 from course.engine.scene.building.objects import object_mesh
 from course.engine.shapes.mesh import Mesh
 from course.engine.terms.surfaces.painting import Paint
-from course.engine.terms.surfaces.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
+from course.engine.terms.surfaces.textures import (
+    Laid,
+    OnMesh,
+    OnRectangle,
+    OnSphere,
+    Places,
+    Texture,
+)
 
 
 def shows_texture(material: d.MaterialDescription) -> bool:
@@ -112,7 +119,7 @@ class Painter:
             wraps = places_function(self._loaded.description.objects[number]) == "sphere_uv"
             levels = make_levels(texture.image, texture.repeat, texture.lookup)
             return Paint(corners, Pyramid(levels, NormalMap(texture, places, wraps)))
-        return Paint(corners, lambda weights, own: texture(places(weights, own)))
+        return Paint(corners, Laid(texture, places))
 
     def _noise(self, described: d.NoiseDescription, number: int, mesh: Mesh) -> Paint:
         """Noise in an object's coordinates before its transformations."""
@@ -201,8 +208,9 @@ class Painter:
             self._latest = number, vertices, vertices[mesh.triangles]
         _, vertices, corners = self._latest
         if name == "rectangle_uv":
-            return corners, on_rectangle(vertices, function)
-        return corners, (on_sphere if name == "sphere_uv" else on_mesh)(function)
+            corner, along, _, across = vertices.astype(np.float32)
+            return corners, OnRectangle(corner, along, across, function)
+        return corners, (OnSphere if name == "sphere_uv" else OnMesh)(function)
 
     def _uv(self, number: int, mesh: Mesh, asked_by: KeyPath) -> Floats64:
         """Texture coordinates of a mesh as points (V, 3) whose third coordinate is 0."""

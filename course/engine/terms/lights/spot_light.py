@@ -35,15 +35,21 @@ class SpotLight(PointLight):
         """Axis and outer angle [rad] of all that it lights."""
         return self.axis, self.outer
 
+    @property
+    def falloff(self) -> tuple[float, float]:
+        """1 - cos of the outer angle, and over how much of it the light falls off."""
+        outer = _versine(self.outer)
+        return outer, max(outer - _versine(self.inner), SHARPEST * outer, LEAST)
+
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``Light``."""
         sample = towards_in_numpy(self.position[:, None], points)
         # 1 - cos of an angle is half the square of the chord, which keeps its digits where the angle is small.
         chord = -sample.to_light * sample.inverse_length - self.axis[:, None]
-        outer = _versine(self.outer)
-        edge = max(outer - _versine(self.inner), SHARPEST * outer, LEAST)
-        share = (outer - dot(chord, chord) / 2) / np.float32(edge)
-        factor = sample.factor * np.clip(share, 0, 1) ** 4
+        outer, edge = self.falloff
+        share = np.clip((outer - dot(chord, chord) / 2) / np.float32(edge), 0, 1)
+        share *= share
+        factor = sample.factor * (share * share)
         return Sample(sample.to_light, sample.inverse_length, np.asarray(factor, np.float32))
 
     @property

@@ -39,7 +39,7 @@ class Glow:
     ) -> Floats32 | None:
         """Radiance (3, n) or None for 0, with what surfaces add that glow, where they are seen or at all hits.
 
-        ``share`` : (n,) of the light that counts; None for all of it
+        ``share`` : (n,) or (3, n) of the light that counts; None for all of it
         """
         glows = self._glows.take(hits.material)
         if seen is not None:
@@ -50,7 +50,7 @@ class Glow:
         if radiance is None:
             radiance = np.zeros((3, hits.size), np.float32)
         light = self.radiance.take(hits.material.take(which), axis=1)
-        radiance[:, which] += light if share is None else light * share.take(which)
+        radiance[:, which] += light if share is None else light * share.take(which, axis=-1)
         return radiance
 
 
@@ -172,15 +172,9 @@ class PathIntegrator(Integrator):
             outside = np.ones(hits.size, np.bool_)
             outside[inside] = False
         if self.reflected is not None:
-            radiance = self.reflected.added(radiance, hits, outside)
+            radiance = self.reflected.added(radiance, hits, outside, hits.tint)
         if self.unsought is not None:
             radiance = self.unsought.added(radiance, hits, None)
-        if hits.tint is not None and self.ambient is not None:
-            # A texture colours the ambient term, and no other light that a surface gives off.
-            change = self.ambient(hits.material) * (hits.tint - 1)
-            if outside is not None:
-                change *= outside
-            radiance = change if radiance is None else np.add(radiance, change, out=radiance)
         if self.lamps is not None and adds_lights is not None:
             radiance = self.lamps.added(radiance, hits, adds_lights & hits.entering, share)
         if self.objects is not None and adds_lights is not None:

@@ -7,17 +7,17 @@ M. Olano and D. Manocha, "Appearance-preserving simplification", 1998.) The fram
 with u at right angles to the shading normal.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from course.engine.core.hits import Hits
+from course.engine.core.hits import Hits, turn_to_viewer
 from course.engine.core.triangles import Triangles
 from course.engine.core.types import Floats32, Floats64
 from course.engine.core.vectors import cross, dot, gather
 from course.engine.terms.surfaces.painting import Painting
+from course.engine.terms.surfaces.textures import Places, Texture
 
 STEP = np.float32(0.125)
 """How far, in edges of its triangle, a place is compared with its neighbours."""
@@ -32,13 +32,13 @@ class NormalMap:
 
     Attributes
     ----------
-    color : places (2, n) -> colours (3, n)
-    places : (barycentrics (3, n), what the corners carry (3 corners, 3, n)) -> (2, n)
+    color : the picture
+    places : where the shape has them
     wraps : true if u goes around, from 1 to 0
     """
 
-    color: Callable[[Floats32], Floats32]
-    places: Callable[[Floats32, Floats32], Floats32]
+    color: Texture
+    places: Places
     wraps: bool
 
     def normals(
@@ -72,8 +72,11 @@ class Relief:
 
     maps: Painting
 
-    def normals(self, hits: Hits, triangles: Triangles) -> Floats32:
-        """Shading normals (3, n) of hits, on the incoming side; ``hits.ns`` where there is no map."""
+    def normals(self, hits: Hits, triangles: Triangles, turned: bool) -> Floats32:
+        """Shading normals (3, n) of hits, on the incoming side; ``hits.ns`` where there is no map.
+
+        ``turned`` : true to turn those of maps to the viewer (``turn_to_viewer``)
+        """
         ns = hits.ns
         for which, normal_map, weights, corners in self.maps.painted(hits.triangle, hits.u, hits.v):
             if ns is hits.ns:
@@ -82,7 +85,10 @@ class Relief:
             edges = gather(triangles.edges, hits.triangle.take(which))
             side = hits.side.take(which)
             outward = hits.ns.take(which, axis=1) * side
-            ns[:, which] = known.normals(weights, corners, outward, edges) * side
+            normals = known.normals(weights, corners, outward, edges) * side
+            if turned:
+                turn_to_viewer(normals, hits.direction.take(which, axis=1))
+            ns[:, which] = normals
         return ns
 
 

@@ -6,12 +6,13 @@ points.
 """
 
 from dataclasses import dataclass
+from functools import cache
 from itertools import product
 from typing import Final
 
 import numpy as np
 
-from course.engine.core.types import Floats32
+from course.engine.core.types import Floats32, Indices
 
 PERIOD: Final = 256
 """Whole points after which the table repeats."""
@@ -21,11 +22,17 @@ GRADIENTS: Final = np.array(
 )
 """(12, 3): from the middle of a cube to the middles of its edges."""
 
-TABLE: Final = np.tile(np.random.default_rng(1985).permutation(PERIOD), 2)
-"""Shuffled numbers below `PERIOD`, twice over: places are sums of one of them, a whole point's remainder and 0 or 1."""
 
-DIRECTIONS: Final = np.ascontiguousarray(GRADIENTS[TABLE % len(GRADIENTS)].T)
-"""(3, 2 PERIOD): directions by place of the table."""
+@cache
+def tables() -> tuple[Indices, Floats32]:
+    """Shuffled numbers below `PERIOD`, twice over, and directions (3, 2 PERIOD) by their places.
+
+    Places are sums of one of the numbers, a whole point's remainder and 0 or 1. Scenes without noise don't wait for
+    NumPy's generators.
+    """
+    numbers = np.tile(np.random.default_rng(1985).permutation(PERIOD), 2)
+    return numbers, np.ascontiguousarray(GRADIENTS[numbers % len(GRADIENTS)].T)
+
 
 ABSOLUTE = "absolute"
 
@@ -41,17 +48,18 @@ def noise(x: Floats32) -> Floats32:
     # Corners 0 and 1 of a cell, by axis. What corners have in common is done once.
     weights, away = (1 - fade, fade), (t, t - 1)
     total = np.zeros(x.shape[1], np.float32)
+    numbers, directions = tables()
     for i in (0, 1):
-        of_x = TABLE.take(whole[0] + i) + whole[1]
+        of_x = numbers.take(whole[0] + i) + whole[1]
         for j in (0, 1):
-            of_xy = TABLE.take(of_x + j) + whole[2]
+            of_xy = numbers.take(of_x + j) + whole[2]
             weight = weights[i][0] * weights[j][1]
             for k in (0, 1):
                 corner = of_xy + k
                 # One of the three is 0, so no order of the sum rounds otherwise.
-                slope = DIRECTIONS[0].take(corner) * away[i][0]
-                slope += DIRECTIONS[1].take(corner) * away[j][1]
-                slope += DIRECTIONS[2].take(corner) * away[k][2]
+                slope = directions[0].take(corner) * away[i][0]
+                slope += directions[1].take(corner) * away[j][1]
+                slope += directions[2].take(corner) * away[k][2]
                 total += weight * weights[k][2] * slope
     return total
 

@@ -111,9 +111,8 @@ class FullSurface(Surface):
         """See ``Surface``."""
         hits = super().hits(found, direction, time, of_camera)
         if self.relief is not None:
-            hits = replace(hits, ns=self.relief.normals(hits, self.triangles))
-            if self.turned is None and hits.ns is not hits.ng:
-                turn_to_viewer(hits.ns, hits.direction)
+            normals = self.relief.normals(hits, self.triangles, self.turned is None)
+            hits = replace(hits, ns=normals)
         if self.turned is not None and hits.ns is not hits.ng:
             some = np.flatnonzero(self.turned.take(hits.material))
             normals = hits.ns.take(some, axis=1)

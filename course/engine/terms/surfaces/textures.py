@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.engine.core.types import Floats32, Floats64
+from course.engine.core.types import Floats32
 
 Places = Callable[[Floats32, Floats32], Floats32]
 """(barycentrics (3, N), what the corners carry (3 corners, 3, N)) -> places (2, N) in a picture."""
@@ -38,24 +38,57 @@ class Texture:
         return self.lookup(self.image, uv)
 
 
-def on_rectangle(local: Floats64, rectangle_uv: Callable[..., Floats32]) -> Places:
+@dataclass(frozen=True)
+class OnRectangle:
     """Places on a rectangle whose corners carry their places in its own coordinates.
 
-    ``local``: (4, 3) its corners in their order around it: u goes from the first to the second, v to the fourth.
+    Attributes
+    ----------
+    corner, along, across : (3,) float32, the corner where u = v = 0, and its neighbours at u = 1 and at v = 1
     """
-    p1, p2, _, p3 = local.astype(np.float32)
-    return lambda weights, corners: rectangle_uv(_points(weights, corners), p1, p2, p3)
+
+    corner: Floats32
+    along: Floats32
+    across: Floats32
+    rectangle_uv: Callable[..., Floats32]
+
+    def __call__(self, weights: Floats32, corners: Floats32) -> Floats32:
+        """See ``Places``."""
+        return self.rectangle_uv(_points(weights, corners), self.corner, self.along, self.across)
 
 
-def on_sphere(sphere_uv: Callable[..., Floats32]) -> Places:
+@dataclass(frozen=True)
+class OnSphere:
     """Places on a sphere about the origin whose corners carry their places in its own coordinates."""
-    center = np.zeros(3, np.float32)
-    return lambda weights, corners: sphere_uv(_points(weights, corners), center)
+
+    sphere_uv: Callable[..., Floats32]
+
+    def __call__(self, weights: Floats32, corners: Floats32) -> Floats32:
+        """See ``Places``."""
+        return self.sphere_uv(_points(weights, corners), np.zeros(3, np.float32))
 
 
-def on_mesh(triangle_uv: Callable[..., Floats32]) -> Places:
+@dataclass(frozen=True)
+class OnMesh:
     """Places on triangles whose corners carry u and v."""
-    return lambda weights, corners: triangle_uv(weights, *corners[:, :2])
+
+    triangle_uv: Callable[..., Floats32]
+
+    def __call__(self, weights: Floats32, corners: Floats32) -> Floats32:
+        """See ``Places``."""
+        return self.triangle_uv(weights, *corners[:, :2])
+
+
+@dataclass(frozen=True)
+class Laid:
+    """A texture that is laid on a shape, as a ``ColorAt``."""
+
+    texture: Texture
+    places: Places
+
+    def __call__(self, weights: Floats32, corners: Floats32) -> Floats32:
+        """See ``ColorAt``."""
+        return self.texture(self.places(weights, corners))
 
 
 def _points(barycentric: Floats32, corners: Floats32) -> Floats32:
