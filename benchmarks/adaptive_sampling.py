@@ -20,7 +20,7 @@ from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import NONE, Table, digits
 from course.engine.core.types import Floats64
 from course.engine.functions.effects import PROJECT
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.scene.scene import load_variant
 
 SCENE = PROJECT / "scenes" / "adaptive_sampling.yaml"

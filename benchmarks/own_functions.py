@@ -15,7 +15,7 @@ from benchmarks.engine import EFFECTS
 from benchmarks.figures import Figure, summary
 from course import Scene, load_scene, render
 from course.engine.functions.effects import PROJECT
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 
 ROUNDS, SAMPLES, SIZE = 5, 16, (300, 200)
 GOAL = 1.1

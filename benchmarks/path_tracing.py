@@ -26,7 +26,7 @@ from course.benchmarking.plot_data import comparisons
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import summary_table
 from course.engine.functions.effects import PROJECT
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.scene.scene import load_variant
 
 SCENE = PROJECT / "scenes" / "path_tracing.yaml"

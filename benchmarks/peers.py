@@ -59,7 +59,7 @@ from course.engine.formats.yaml.description import rgb
 from course.engine.formats.yaml.loading import load_description
 from course.engine.formats.yaml.overriding import Overrides
 from course.engine.functions.effects import PROJECT
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.scene.scene import load_variant
 
 MITSUBA_COUNTS = (4, *SAMPLES)

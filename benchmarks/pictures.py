@@ -24,7 +24,7 @@ from course.base.atomic import write_text
 from course.base.errors import CourseError
 from course.benchmarking.machine import machine
 from course.engine.functions.effects import PROJECT
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.render.render import render
 from course.engine.scene.scene import Scene, load_scene
 from course.engine.terms.samplers import FUNCTIONS

@@ -31,7 +31,7 @@ from course.base.processes import environment_apart
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Table
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 
 SIZE, SAMPLES, THREADS = (200, 150), 16, 2
 STEPS = 3

@@ -21,7 +21,7 @@ MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 32, 1829, 60
 
 FROM_RAY_TO_COLOUR = (
     *("tracer", "integrator", "camera", "hits", "direct"),
-    *("lights/sample", "lights/sphere", "reflection", "materials", "scatter"),
+    *("lights/sample", "lights/sphere", "blinn_phong", "materials", "scatter"),
 )
 MOST_LINES_TO_COLOUR = 900
 """What is to be read to understand how one camera ray becomes a colour."""
@@ -70,7 +70,7 @@ def test_from_a_camera_ray_to_a_colour_little_is_to_be_read() -> None:
     )
     assert len(paths) <= 10
     assert (
-        tuple(re.findall(r"`([a-z/]+)\.py`", _paragraph("From a camera ray to its colour")))
+        tuple(re.findall(r"`([a-z_/]+)\.py`", _paragraph("From a camera ray to its colour")))
         == FROM_RAY_TO_COLOUR
     )
 

@@ -58,7 +58,7 @@ DOOR = {
             for name in ("cells", "name_effects", "needed", "reachable", "reading")
         ),
     },
-    "loops": {"fits", "library"},
+    "loops": {"fits", "embree_device"},
     "recording": {"pair", "recording", "stages", "story", "view"},
     "render": {
         *("adaptive.rounds", "background_compile", "binding", "cluster.connection", "developing"),

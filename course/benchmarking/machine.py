@@ -7,7 +7,7 @@ from pathlib import Path
 
 from course.base.version import __version__
 from course.engine.casters.choice import software
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.render.threads import default_threads
 
 

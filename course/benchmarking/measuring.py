@@ -14,7 +14,7 @@ from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.references import FOLDER, Reference, reference
 from course.engine.core.types import Floats64
 from course.engine.functions.effects import Effects
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.render.render import render
 from course.engine.scene.scene import Scene, load_variant
 

@@ -14,7 +14,7 @@ from course.benchmarking.errors import dissimilarity, relative_mse, rmse
 from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.measuring import Effort, Measured, measure
 from course.benchmarking.references import reference
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.scene.scene import load_variant
 
 SQUARE = {"type": "rectangle", "corner": [0.6, 3, 0.6], "edge_u": [0, 0, 0.8]}

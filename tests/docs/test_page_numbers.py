@@ -21,7 +21,7 @@ from course.benchmarking.estimators import FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, read_records
 from course.engine.functions.effects import PROJECT
 from course.engine.functions.modules import COURSE
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.radiosity.radiosity import PATCHES
 from course.engine.radiosity.solving import GATHERED, KEPT_BYTES
 from course.engine.render.box_tests import box_tests as boxes_met

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.engine.core.blinn_phong import BlinnPhong
 from course.engine.core.camera import Camera
 from course.engine.core.direct import DirectLight
 from course.engine.core.environment import Environment
@@ -18,7 +19,6 @@ from course.engine.core.lights.sample import Light
 from course.engine.core.materials import Lookup, MaterialTable
 from course.engine.core.motion import Motion
 from course.engine.core.rays import Dimensions
-from course.engine.core.reflection import BlinnPhong
 from course.engine.core.scatter import Scatter
 from course.engine.core.types import Floats32
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from course.engine.core.accelerator import StaticAccelerator
+from course.engine.core.blinn_phong import BlinnPhong
 from course.engine.core.camera import Camera, Lens
 from course.engine.core.direct import DirectLight
 from course.engine.core.environment import ConstantEnvironment, CubeEnvironment
@@ -23,7 +24,6 @@ from course.engine.core.lights.point import DirectionalLight, PointLight
 from course.engine.core.lights.rectangle import RectangleLight
 from course.engine.core.lights.sphere import SphereLight
 from course.engine.core.motion import Motion, Mover, MovingAccelerator
-from course.engine.core.reflection import BlinnPhong
 from course.engine.core.samplers import Sampler
 from course.engine.core.scatter import Scatter
 from course.engine.core.tracer import Tracer

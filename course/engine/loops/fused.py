@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from course.engine.core.blinn_phong import BlinnPhong
 from course.engine.core.camera import Lens
 from course.engine.core.counters import Counters
 from course.engine.core.direct import ROUNDING, DirectLight
@@ -19,7 +20,6 @@ from course.engine.core.lights.sample import Light
 from course.engine.core.lights.sphere import SphereLight
 from course.engine.core.materials import Lookup
 from course.engine.core.rays import Dimensions, Draws
-from course.engine.core.reflection import BlinnPhong
 from course.engine.core.samplers import Block
 from course.engine.core.tiles import Area
 from course.engine.core.tracer import Tracer

@@ -13,7 +13,7 @@ from course.engine.loops.numpy_loops import OF_TWO, loops
 from course.engine.loops.options import LEAN, njit
 
 _LOOPS = loops()
-assert _LOOPS is not None, "asked before the loops are read: see library.available"
+assert _LOOPS is not None, "asked before the loops are read: see embree_device.available"
 for _name, (_address, _) in _LOOPS.items():
     llvmlite.binding.add_symbol(f"course_numpy_{_name}", _address)
 

@@ -8,7 +8,7 @@ import numba
 from numba import types
 
 from course.engine.casters.older_loops import forget_older_loops
-from course.engine.loops.library import width
+from course.engine.loops.embree_device import width
 
 COLUMNS = types.float32[:, ::1]
 """(k, N) float32, C-contiguous."""

@@ -7,7 +7,7 @@ mask, id, flags; then of the hit Ng, u, v, primID, geomID, instID.
 from numba import types
 
 from course.engine.loops import packets
-from course.engine.loops.library import name_queries, queries
+from course.engine.loops.embree_device import name_queries, queries
 from course.engine.loops.options import LEAN, njit
 
 name_queries()

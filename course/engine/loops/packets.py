@@ -17,7 +17,7 @@ import numpy as np
 from course.engine.casters.choice import chosen
 from course.engine.core.accelerator import NO_HIT, Intersections, StaticAccelerator, no_hits
 from course.engine.core.types import Floats32, Numbers
-from course.engine.loops.library import device, library, queries, width
+from course.engine.loops.embree_device import device, library, queries, width
 from course.engine.terms.surfaces.boxes import roomy_box
 
 WIDTH = width()

@@ -157,8 +157,8 @@ def _texels(place, size):
     first = np.floor(place)
     share = place - first
     # Places that are no numbers take some texel. The neighbour beyond an edge is at the opposite one.
-    i = np.int64(first) if -_ONE <= first <= np.float32(size) else np.int64(0)
-    i = i + size if i < 0 else (i - size if i >= size else i)
+    i = np.int64(first) if -_ONE <= first < np.float32(size) else np.int64(0)
+    i = i + size if i < 0 else i
     return i, (i + 1 if i + 1 < size else np.int64(0)), share
 
 

@@ -17,8 +17,8 @@ from course.engine.core.tracer import Tracer
 from course.engine.core.types import Floats32, Words
 from course.engine.functions.contracts import contract
 from course.engine.functions.effects import Bound
+from course.engine.loops.embree_device import available
 from course.engine.loops.fits import fits
-from course.engine.loops.library import available
 from course.engine.recording.recorder import Recorder
 from course.engine.recording.segments import Segment, segments_of
 from course.engine.recording.stages import RecordedDraws, RecordedEffects, recorded

@@ -12,8 +12,8 @@ from course.base.errors import CourseError
 from course.engine.casters.choice import VARIABLE
 from course.engine.core.tracer import Tracer
 from course.engine.functions.effects import Bound
+from course.engine.loops.embree_device import available
 from course.engine.loops.engine import compiled, has_loops
-from course.engine.loops.library import available
 from course.engine.render.binding import bind
 from course.engine.render.threads import Pool
 from course.engine.scene.scene import Scene, SceneSettings

@@ -17,7 +17,7 @@ from course.engine.core.rays import RAYS
 from course.engine.core.tiles import PASS, Tile, Work, spread_over_cache, tile_picture
 from course.engine.core.types import Floats32
 from course.engine.functions.effects import Bound
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.render.binding import bind
 from course.engine.render.not_written import lines_named
 from course.engine.render.render import render

@@ -10,7 +10,7 @@ import pytest
 
 from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT, Effects
-from course.engine.loops import library, numpy_loops
+from course.engine.loops import embree_device, numpy_loops
 from course.engine.loops.fits import (
     KNOWN,
     fits,
@@ -213,7 +213,7 @@ def test_a_students_other_functions_are_called_by_batches() -> None:
         assert not fits(bound(scene, sampler="sobol")), function
 
 
-@pytest.mark.skipif(not library.available(), reason="Numba is not installed")
+@pytest.mark.skipif(not embree_device.available(), reason="Numba is not installed")
 def test_the_answer_reads_no_loop() -> None:
     """Numba takes half a second to be read: a scene that doesn't fit doesn't wait for it."""
     import subprocess
@@ -231,14 +231,14 @@ def test_the_answer_reads_no_loop() -> None:
 def test_without_numpys_own_loops_batches_render(monkeypatch: pytest.MonkeyPatch) -> None:
     """A NumPy that keeps them elsewhere: nothing is compiled that would call what isn't there."""
     monkeypatch.setattr(numpy_loops, "_FUNCTIONS", numpy_loops._DATA)
-    for cached in (library.available, numpy_loops.loops):
+    for cached in (embree_device.available, numpy_loops.loops):
         cached.cache_clear()
     try:
         assert numpy_loops.loops() is None
-        assert not library.available()
+        assert not embree_device.available()
         assert render(scene_of("soft_shadows"), spp=1, size=(8, 6)).linear.any()
         with pytest.raises(CourseError, match="a NumPy whose own loops are found"):
             render(scene_of("soft_shadows"), spp=1, size=(8, 6), compiled=True)
     finally:
-        for cached in (library.available, numpy_loops.loops):
+        for cached in (embree_device.available, numpy_loops.loops):
             cached.cache_clear()

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from course.engine.functions.effects import PROJECT
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.render.picture import Picture
 from course.engine.render.render import render
 from course.engine.scene.scene import Scene, load_scene
 
-if not library.available():
+if not embree_device.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 from course.engine.loops import fused_kernels

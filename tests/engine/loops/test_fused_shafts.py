@@ -7,7 +7,7 @@ import pytest
 
 from course.engine.core.direct import DirectLight
 from course.engine.core.tracer import Tracer
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from tests.engine.terms.shafts.scenes import (
     MakeScene,
     random_scene,
@@ -16,7 +16,7 @@ from tests.engine.terms.shafts.scenes import (
     without_shafts,
 )
 
-if not library.available():
+if not embree_device.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 from course.engine.loops.engine import compiled

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.engine.loops import library, scene_tables
+from course.engine.loops import embree_device, scene_tables
 from tests.conftest import MakeScene
 
-if not library.available():
+if not embree_device.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 

@@ -10,12 +10,12 @@ import pytest
 from course import render
 from course.engine.core.types import Functions
 from course.engine.functions.effects import PROJECT, Effects
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.terms.lights.light_tree import Tree, TreeChoice, walk_of
 from tests.conftest import MakeScene
 from tests.engine.terms.lights.test_light_choice import POINTS, SUNS, WITH_A_SIZE, seen
 
-if not library.available():
+if not embree_device.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 from course.engine.loops.light_tree import compiled_choice

@@ -8,10 +8,10 @@ import pytest
 from course.engine.casters.choice import static_accelerator
 from course.engine.core import embree
 from course.engine.core.accelerator import NO_HIT, QueryStats, StaticAccelerator
-from course.engine.loops import library, packets
+from course.engine.loops import embree_device, packets
 from course.engine.loops.scene_tables import scene_tables
 
-if not library.available():
+if not embree_device.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 
@@ -60,7 +60,7 @@ def test_triangles_are_built_once(accelerator: StaticAccelerator) -> None:
     assert tables.scenes.tolist() == tables.blockers.tolist() == [built.scene]
 
 
-@pytest.mark.parametrize("query", library.queries())
+@pytest.mark.parametrize("query", embree_device.queries())
 def test_embree_keeps_to_the_rows_of_a_packet(accelerator: StaticAccelerator, query: str) -> None:
     """Shadow queries, too, touch the rows of hits where the processor is narrower."""
     guard, width = np.float32(12345), packets.WIDTH
@@ -76,7 +76,7 @@ def test_embree_keeps_to_the_rows_of_a_packet(accelerator: StaticAccelerator, qu
     arguments = np.zeros(16, np.uint32)
     arguments[1] = 0xFFFFFFFF
     scene = packets.packets_of(accelerator)
-    embree = library.library()
+    embree = embree_device.library()
     assert embree is not None
     getattr(embree, query)(
         valid.ctypes.data, scene.scene, packet.ctypes.data, arguments.ctypes.data
@@ -99,7 +99,7 @@ def test_nothing_and_a_single_triangle() -> None:
 def test_hierarchies_that_nobody_uses_give_their_memory_back(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    queries = library.library()
+    queries = embree_device.library()
     assert queries is not None
     gc.collect()
     released = []

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from course.engine.formats.pictures.files import write_exr
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from tests.conftest import MakeScene
 from tests.lengths import fewer
 
-if not library.available():
+if not embree_device.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 from tests.engine.loops.test_fused import assert_same, both

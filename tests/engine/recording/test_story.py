@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 from course import load_scene, pixel
 from course.cli.main import commands
 from course.engine.functions.effects import PROJECT
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.recording.story import Line, Story
 from course.engine.scene.scene import load_variant
 from tests.coarser import coarser

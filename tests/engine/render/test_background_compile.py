@@ -19,11 +19,11 @@ from course.engine.core.accelerator import StaticAccelerator
 from course.engine.core.tracer import Tracer
 from course.engine.functions.effects import PROJECT, Effects
 from course.engine.functions.modules import COURSE
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.render.binding import bind
 from course.engine.render.threads import Pool
 
-if not library.available():
+if not embree_device.available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from course.engine.render import background_compile, which_loops

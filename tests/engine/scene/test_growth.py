@@ -7,7 +7,7 @@ import pytest
 
 from course import Scene, render
 from course.base.errors import SceneError
-from course.engine.loops import library
+from course.engine.loops import embree_device
 
 MakeScene = Callable[..., Scene]
 
@@ -28,7 +28,7 @@ def _room(make_scene: MakeScene, max_depth: int, diffuse: float, **more: Any) ->
 
 @pytest.fixture(params=[False, True], ids=["arrays", "loops"])
 def compiled(request: pytest.FixtureRequest) -> bool:
-    if request.param and not library.available():
+    if request.param and not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     return bool(request.param)
 

@@ -46,7 +46,7 @@ from benchmarks.stress.verdict import (
 )
 from course import render
 from course.engine.core import ray_offset
-from course.engine.loops.library import available as packets_available
+from course.engine.loops.embree_device import available as packets_available
 from course.engine.shapes import displaced_sphere
 from tests.lengths import fewer
 from tests.once import Once

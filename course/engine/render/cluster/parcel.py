@@ -25,7 +25,7 @@ from course.engine.formats.yaml.loading import Loaded
 from course.engine.formats.yaml.named_files import with_files
 from course.engine.functions.effects import PACKAGE, Effects
 from course.engine.functions.sources import saved_files
-from course.engine.loops.library import available as packets_available
+from course.engine.loops.embree_device import available as packets_available
 from course.engine.render.binding import bind
 from course.engine.render.memory import keep_freed_memory
 from course.engine.scene.building.world import compile_scene

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.engine.core.blinn_phong import BlinnPhong
 from course.engine.core.direct import Candidates, Sums
 from course.engine.core.hits import Hits
-from course.engine.core.reflection import BlinnPhong
 from course.engine.core.types import Floats32, Mask
 from course.engine.core.vectors import dot
 from course.engine.terms.scattering.highlight import Highlight

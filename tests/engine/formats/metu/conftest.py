@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
 from course.engine.formats.metu.converting import convert
-from course.engine.loops import library
+from course.engine.loops import embree_device
 
 Tree = dict[str, Any]
 
@@ -117,6 +117,6 @@ def xml(tmp_path: Path) -> Metu:
 @pytest.fixture(params=[False, True], ids=["numpy", "compiled"])
 def compiled(request: pytest.FixtureRequest) -> bool:
     """Whether compiled loops are used: each of the two is looked at by itself."""
-    if request.param and not library.available():
+    if request.param and not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     return bool(request.param)

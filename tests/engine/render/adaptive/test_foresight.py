@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from course import Picture, Scene, render
 from course.engine.formats.pictures.display import Display
 from course.engine.formats.pictures.files import save
-from course.engine.loops.library import available
+from course.engine.loops.embree_device import available
 from course.engine.render.adaptive.bright import bright_things, parts_of
 from course.engine.render.adaptive.bright_sky import stars
 from course.engine.render.adaptive.film import PARTS, AdaptiveFilm

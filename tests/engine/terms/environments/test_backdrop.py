@@ -9,7 +9,7 @@ import pytest
 from course import render
 from course.base.errors import SceneError
 from course.engine.formats.pictures.files import write_exr
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from tests.conftest import MakeScene
 
 COLORS = np.random.default_rng(5).uniform(0, 9, (6, 8, 3)).astype(np.float32)
@@ -23,7 +23,7 @@ def picture(make_scene: MakeScene, tmp_path: Path) -> Any:
     write_exr(tmp_path / "colors.exr", np.moveaxis(COLORS, -1, 0))
 
     def _picture(kind: str = "numpy", options: Any = None, **parts: Any) -> Any:
-        if kind == "compiled" and not library.available():
+        if kind == "compiled" and not embree_device.available():
             pytest.skip("Numba is not installed (pip install .[fast])")
         keys = parts.pop("keys", {"interpolation": "nearest"})
         known: dict[str, Any] = {

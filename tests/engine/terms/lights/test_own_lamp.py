@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from course.engine.core.motion import MovingAccelerator
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.render.render import render
 from course.engine.scene.building import world
 from course.engine.scene.scene import Scene
@@ -71,7 +71,7 @@ def static_of(scene: Scene) -> Any:
 def test_without_the_lamps_mesh_shadow_rays_see_the_same(
     name: str, compiled: bool, make_scene: Callable[..., Scene], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if compiled and not library.available():
+    if compiled and not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     spared = scene_of(make_scene, SPARED[name])
     static = static_of(spared)

@@ -10,7 +10,7 @@ import pytest
 from course import render
 from course.base.errors import SceneError
 from course.engine.functions.effects import PROJECT
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.scene.scene import load_variant
 from course.engine.terms.lights.light_choice import PowerChoice, power_of
 from course.engine.terms.lights.spot_light import SpotLight
@@ -101,7 +101,7 @@ def test_a_floor_gets_the_irradiance_of_the_closed_form(
     make_scene: MakeScene, compiled: bool
 ) -> None:
     """I cos^3 / h^2 of a point light, times the share; half of it over pi is reflected. 10 / 4 on the axis."""
-    if compiled and not library.available():
+    if compiled and not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     picture = render(seen(make_scene, [SPOT]), compiled=compiled).linear[..., 1]
     angle = np.degrees(np.arctan(radii(41) / HEIGHT))
@@ -112,7 +112,7 @@ def test_a_floor_gets_the_irradiance_of_the_closed_form(
 
 
 def test_both_engines_agree(make_scene: MakeScene) -> None:
-    if not library.available():
+    if not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     scene = seen(make_scene, [SPOT])
     pictures = [render(scene, compiled=each).linear for each in (False, True)]

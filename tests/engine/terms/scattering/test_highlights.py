@@ -8,7 +8,7 @@ import pytest
 
 from course import pixel, render
 from course.base.errors import SceneError
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from tests.conftest import MakeScene
 
 COLOR, SPECULAR, EXPONENT = np.array([0.5, 0.3, 0.1]), np.array([0.2, 0.6, 1.5]), 7.0
@@ -51,7 +51,7 @@ KINDS: list[dict[str, Any]] = [
 
 def floor(make_scene: MakeScene, way: Any, slope: float, compiled: bool, **keys: Any) -> Any:
     """What a camera sees of the floor at the origin, in light of irradiance pi."""
-    if compiled and not library.available():
+    if compiled and not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     shiny = {"color": COLOR.tolist(), "specular": SPECULAR.tolist(), "exponent": EXPONENT} | keys
     scene = make_scene(

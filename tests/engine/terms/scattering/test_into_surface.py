@@ -13,7 +13,7 @@ import pytest
 
 from course import Scene, render
 from course.engine.formats.meshes.files import save_ply
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.shapes.mesh import Mesh
 from tests.conftest import MakeScene
 from tests.estimates import estimate, fresnel
@@ -164,7 +164,7 @@ def test_a_facet_that_turns_from_a_light_is_dark_unless_the_surface_is_round(
 
 def test_compiled_loops_keep_what_points_out_of_a_ball_too(make_scene: MakeScene) -> None:
     """Such a ray starts within the ball and meets it again, though its direction says that it has left."""
-    if not library.available():
+    if not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     scene = make_scene(
         camera={"eye": [0, 2, 5], "look_at": [0, 0, 0], "vertical_fov": 15},

@@ -9,7 +9,7 @@ import pytest
 from course import render
 from course.base.errors import SceneError
 from course.engine.formats.pictures.files import write_exr
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.terms.surfaces.perlin import noise
 from tests.conftest import MakeScene
 from tests.engine.terms.surfaces.test_normal_maps import QUAD, TURN, X, Y, Z, lit, mesh
@@ -45,7 +45,7 @@ def test_an_even_rise_on_a_quad_is_a_slope(
     make_scene: MakeScene, tmp_path: Path, compiled: bool
 ) -> None:
     """Two units wide and deep: u grows by a half along x, v by a half along -z."""
-    if compiled and not library.available():
+    if compiled and not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     write_ramp(tmp_path)
     found = lit(make_scene, QUAD, (0.1, 0, 0.2), (0.1, 2, 0), compiled=compiled, **SLOPE)
@@ -140,7 +140,7 @@ def test_no_height_changes_nothing(make_scene: MakeScene, tmp_path: Path) -> Non
 
 
 def test_both_engines_agree(make_scene: MakeScene) -> None:
-    if not library.available():
+    if not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     scene = make_scene(
         camera={"eye": [0, 1, 4], "look_at": [0, 0, 0]},

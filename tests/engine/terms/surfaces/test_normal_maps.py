@@ -10,7 +10,7 @@ from course import render
 from course.base.errors import SceneError
 from course.engine.formats.meshes.files import save_ply
 from course.engine.formats.pictures.files import save, write_exr
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.scene.building.textures import Painter
 from course.engine.shapes.mesh import Mesh
 from course.engine.terms.surfaces.normal_maps import NormalMap, _turned
@@ -75,7 +75,7 @@ def test_a_constant_map_on_a_quad_is_a_turned_normal(
     make_scene: MakeScene, tmp_path: Path, compiled: bool
 ) -> None:
     """Its u is x, its v is -z. Where light comes from below the surface, that hides it."""
-    if compiled and not library.available():
+    if compiled and not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     write_map(tmp_path)
     found = lit(make_scene, QUAD, (0.1, 0, 0.2), (0.1, 2, 0), compiled=compiled)
@@ -231,7 +231,7 @@ def test_a_mirror_reflects_by_the_turned_normal(make_scene: MakeScene, tmp_path:
 
 
 def test_both_engines_agree(make_scene: MakeScene, tmp_path: Path) -> None:
-    if not library.available():
+    if not embree_device.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     write_map(tmp_path)
     scene = make_scene(

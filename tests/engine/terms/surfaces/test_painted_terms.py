@@ -10,7 +10,7 @@ import pytest
 from course import pixel, render
 from course.base.errors import SceneError
 from course.engine.formats.pictures.files import write_exr
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from tests.conftest import MakeScene
 
 COLORS = np.random.default_rng(3).uniform(0.1, 1, (2, 2, 3)).astype(np.float32)
@@ -24,7 +24,7 @@ def look(make_scene: MakeScene, tmp_path: Path) -> Any:
     write_exr(tmp_path / "colors.exr", np.moveaxis(COLORS, -1, 0))
 
     def _look(material: dict[str, Any], kind: str = "numpy", **parts: Any) -> Any:
-        if kind == "compiled" and not library.available():
+        if kind == "compiled" and not embree_device.available():
             pytest.skip("Numba is not installed (pip install .[fast])")
         known: dict[str, Any] = {
             "camera": {"eye": [-0.5, 5, 0.5], "look_at": [-0.5, 0, 0.5], "up": [0, 0, -1]}

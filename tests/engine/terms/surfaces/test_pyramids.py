@@ -9,7 +9,7 @@ import pytest
 
 from course import render
 from course.engine.formats.pictures.files import write_exr
-from course.engine.loops import library
+from course.engine.loops import embree_device
 from course.engine.terms.surfaces.pyramids import make_levels
 from tests.conftest import MakeScene
 
@@ -47,7 +47,7 @@ def seen(make_scene: MakeScene, tmp_path: Path) -> Any:
     write_exr(tmp_path / "colors.exr", np.moveaxis(COLORS, -1, 0).astype(np.float32))
 
     def _seen(edge: float, kind: str = "numpy", way: Any = (0, 2, 0), **parts: Any) -> Any:
-        if kind == "compiled" and not library.available():
+        if kind == "compiled" and not embree_device.available():
             pytest.skip("Numba is not installed (pip install .[fast])")
         at = np.array(parts.pop("at", (0.13, 0, 0.29)))
         drawn = {"image": "colors.exr", "interpolation": "trilinear"} | parts.pop("drawn", {})

@@ -6,8 +6,9 @@ import numpy as np
 
 from course.engine.core.direct import Candidates, Sums
 from course.engine.core.hits import Hits
-from course.engine.core.materials import Lookup, blinn_phong_highlight
+from course.engine.core.materials import Lookup
 from course.engine.core.types import Floats32
+from course.engine.core.vectors import dot
 
 
 @dataclass(frozen=True)
@@ -75,3 +76,23 @@ def accumulated(
         return added
     total += added
     return total
+
+
+def blinn_phong_highlight(
+    to_light: Floats32, direction: Floats32, normal: Floats32, exponent: Floats32
+) -> Floats32:
+    """(n . h)^exponent, (k,), with h the half vector of the directions to the light and to the viewer.
+
+    The vectors are (3, k) float32 and of unit length: to the light, from the viewer, and the normal. ``exponent`` is
+    (k,) or (1,) float32. (J. Blinn, "Models of light reflection for computer synthesized pictures", 1977.)
+    """
+    half = to_light - direction
+    squared = dot(half, half)
+    cosine = dot(half, normal)
+    cosine /= np.sqrt(np.maximum(squared, np.float32(1e-12)))
+    # NumPy's exp and log are ten times faster than `power`. With exponents of at least 1 the clamped power is
+    # negligible. With 0 it is 1 everywhere. Between 0 and 1 a faint highlight stays where n . h <= 0.
+    np.clip(cosine, np.float32(1e-6), 1, out=cosine)
+    np.log(cosine, out=cosine)
+    cosine *= exponent
+    return np.exp(cosine, out=cosine)
