@@ -10,7 +10,6 @@ from io import BytesIO
 from itertools import count
 from time import monotonic
 
-from course.base import texts
 from course.base.errors import CourseError
 from course.engine.render.adaptive.rounds import ADAPTABLE
 from course.engine.render.render import render
@@ -21,9 +20,6 @@ WIDTH = 160
 
 DOTS = 110
 """Of an inch of the plot."""
-
-FAR = 300
-"""Times its beginning is the end of an axis that has no numbers but powers of ten."""
 
 LONGER = 4
 """Times as long as one picture the next takes, which has so many times its samples."""
@@ -63,23 +59,21 @@ class ErrorOverTime:
     def _repr_png_(self) -> bytes:
         """Error over seconds, both on logarithmic scales."""
         from matplotlib.figure import Figure
-        from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
         figure = Figure(figsize=(5.6, 3.6), layout="constrained")
         axes = figure.subplots()
         for (name, points), mark in zip(self.points.items(), "os^vDPX*<>" * 9, strict=False):
             seconds, errors = ([getattr(p, key) for p in points] for key in ("seconds", "error"))
-            most = texts.count(points[-1].samples, "sample")
-            axes.loglog(seconds, errors, f"{mark}-", label=f"{name}, up to {most}")
-        axes.set(title=self.title, xlabel="seconds", ylabel="root-mean-square error")
+            told = f"{name}, up to {points[-1].samples} a pixel"
+            axes.loglog(seconds, errors, f"{mark}-", label=told, subs=(2, 5))
+        # Matplotlib's own numbers between powers of ten would lie one over the other.
         for axis in (axes.xaxis, axes.yaxis):
-            low, high = axis.get_view_interval()
-            # Matplotlib's own numbers between powers of ten lie one over the other.
-            axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < FAR * low else (1,)))
-            axis.set_major_formatter(StrMethodFormatter("{x:g}"))
-            axis.set_minor_formatter(NullFormatter())
+            axis.set_major_formatter("{x:g}")
+            axis.set_minor_formatter("{x:g}")
+        axes.tick_params(which="both", labelsize=7)
+        axes.set(title=self.title, xlabel="seconds", ylabel="root-mean-square error")
         axes.grid(alpha=0.3)
-        axes.legend()
+        axes.legend(title="samples")
         file = BytesIO()
         figure.savefig(file, format="png", dpi=DOTS)
         return file.getvalue()
