@@ -116,10 +116,11 @@ def _check_batch(name, array, rows, columns=None):
         raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
-def _check_numbers(name, array):
+def _check_numbers(name, array, columns=None):
     shape = np.shape(array)
-    if len(shape) != 1:
-        raise ValueError(f"{name} must have shape (N,), got {shape}")
+    if len(shape) != 1 or (columns is not None and shape[0] != columns):
+        expected = f"({'N' if columns is None else columns},)"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
 def _check_not_negative(name, number):

@@ -22,7 +22,7 @@ def expose(radiance, stops):
 
     Task: film.expose.
     """
-    _check_batch("radiance", radiance)
+    _check_batch("radiance", radiance, 3)
     _check_number("stops", stops, np.isfinite(stops), "finite")
     # TODO film.expose: write your solution here
     raise NotImplementedError("film.expose: not written yet")
@@ -47,7 +47,7 @@ def luminance(rgb):
 
     Task: film.luminance. Source: ITU-R BT.709.
     """
-    _check_batch("rgb", rgb)
+    _check_batch("rgb", rgb, 3)
     # TODO film.luminance: write your solution here
     raise NotImplementedError("film.luminance: not written yet")
 
@@ -78,7 +78,7 @@ def photographic(radiance, key, burn, saturation):
 
     Task: film.photographic. Source: Reinhard et al., "Photographic tone reproduction for digital images", 2002.
     """
-    _check_batch("radiance", radiance)
+    _check_batch("radiance", radiance, 3)
     _check_number("key", key, 0 < key < np.inf, "finite and > 0")
     _check_number("burn", burn, 0 <= burn <= 100, "from 0 to 100")
     _check_number("saturation", saturation, 0 <= saturation < np.inf, "finite and >= 0")
@@ -107,7 +107,7 @@ def encode_srgb(linear):
 
     Task: film.encode_srgb. Source: IEC 61966-2-1.
     """
-    _check_batch("linear", linear)
+    _check_batch("linear", linear, 3)
     # TODO film.encode_srgb: write your solution here
     raise NotImplementedError("film.encode_srgb: not written yet")
 
@@ -135,7 +135,7 @@ def convert_gamut(rgb, source, target):
 
     Task: film.convert_gamut. Source: SMPTE RP 177.
     """
-    _check_batch("rgb", rgb)
+    _check_batch("rgb", rgb, 3)
     for name, gamut in (("source", source), ("target", target)):
         if np.shape(gamut) != (2, 4):
             raise ValueError(f"{name} must have shape (2, 4), got {np.shape(gamut)}")
@@ -164,18 +164,19 @@ def quantize(encoded, u):
 
     Task: film.quantize. Source: Roberts, "Picture coding using pseudo-random noise", 1962.
     """
-    _check_batch("encoded", encoded)
-    _check_batch("u", u)
+    _check_batch("encoded", encoded, 3)
+    _check_batch("u", u, 3)
     if len(u[0]) != len(encoded[0]):
         raise ValueError(f"u must have shape {np.shape(encoded)}, got {np.shape(u)}")
     # TODO film.quantize: write your solution here
     raise NotImplementedError("film.quantize: not written yet")
 
 
-def _check_batch(name, array):
+def _check_batch(name, array, rows, columns=None):
     shape = np.shape(array)
-    if len(shape) != 2 or shape[0] != 3:
-        raise ValueError(f"{name} must have shape (3, N), got {shape}")
+    if len(shape) != 2 or shape[0] != rows or (columns is not None and shape[1] != columns):
+        expected = f"({rows}, {'N' if columns is None else columns})"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
 def _check_number(name, value, legal, what):

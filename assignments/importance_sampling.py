@@ -138,7 +138,7 @@ def estimate(f, pdf):
     if np.ndim(f) not in (1, 2):
         raise ValueError(f"f must have shape (N,) or (C, N), got {np.shape(f)}")
     _check_numbers("pdf", pdf, np.shape(f)[-1])
-    _check_not_negative("pdf", pdf)
+    _check_none_negative("pdf", pdf)
     if ((pdf == 0) & (f != 0)).any():
         raise ValueError("pdf must be > 0 where f is not 0")
     # TODO importance_sampling.estimate: write your solution here
@@ -167,8 +167,8 @@ def power_heuristic(a, b):
     """
     _check_numbers("a", a)
     _check_numbers("b", b, np.shape(a)[0])
-    _check_not_negative("a", a)
-    _check_not_negative("b", b)
+    _check_none_negative("a", a)
+    _check_none_negative("b", b)
     # TODO importance_sampling.power_heuristic: write your solution here
     raise NotImplementedError("importance_sampling.power_heuristic: not written yet")
 
@@ -182,10 +182,10 @@ def _check_rows(name, array, rows):
 def _check_numbers(name, array, columns=None):
     shape = np.shape(array)
     if len(shape) != 1 or (columns is not None and shape[0] != columns):
-        expected = "N" if columns is None else columns
-        raise ValueError(f"{name} must have shape ({expected},), got {shape}")
+        expected = f"({'N' if columns is None else columns},)"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
-def _check_not_negative(name, array):
+def _check_none_negative(name, array):
     if not (array >= 0).all():
         raise ValueError(f"{name} must be >= 0, got {array.min()}")

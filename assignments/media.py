@@ -21,8 +21,8 @@ def transmittance(sigma_t, distance):
 
     Task: media.transmittance. Source: Bouguer, 1729; Lambert, 1760; Beer, 1852.
     """
-    _check(sigma_t=(sigma_t, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t)
+    _check_arrays(sigma_t=(sigma_t, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t)
     # TODO media.transmittance: write your solution here
     raise NotImplementedError("media.transmittance: not written yet")
 
@@ -44,8 +44,8 @@ def free_flight(sigma_t, weights, u):
 
     Task: media.free_flight. Source: Pharr, Jakob and Humphreys, "Physically based rendering", 2016, 15.2.
     """
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     # TODO media.free_flight: write your solution here
     raise NotImplementedError("media.free_flight: not written yet")
 
@@ -66,8 +66,8 @@ def free_flight_pdf(sigma_t, weights, distance):
 
     Task: media.free_flight_pdf. Source: Pharr, Jakob and Humphreys, 2016, 15.2.
     """
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     # TODO media.free_flight_pdf: write your solution here
     raise NotImplementedError("media.free_flight_pdf: not written yet")
 
@@ -86,7 +86,7 @@ def henyey_greenstein(cos, g):
 
     Task: media.henyey_greenstein. Source: Henyey and Greenstein, "Diffuse radiation in the galaxy", 1941.
     """
-    _check(cos=(cos, "N"))
+    _check_arrays(cos=(cos, "N"))
     _check_g(g)
     # TODO media.henyey_greenstein: write your solution here
     raise NotImplementedError("media.henyey_greenstein: not written yet")
@@ -109,7 +109,7 @@ def sample_henyey_greenstein(direction, g, u):
 
     Task: media.sample_henyey_greenstein. Source: Witt, "Multiple scattering in reflection nebulae", 1977.
     """
-    _check(direction=(direction, 3, "N"), u=(u, 2, "N"))
+    _check_arrays(direction=(direction, 3, "N"), u=(u, 2, "N"))
     _check_g(g)
     # TODO media.sample_henyey_greenstein: write your solution here
     raise NotImplementedError("media.sample_henyey_greenstein: not written yet")
@@ -198,7 +198,7 @@ def equiangular(origin, direction, light, limit, u):
     participating media", 2012.
     """
     _check_rays(origin, direction, limit, u, "N")
-    _check(origin=(origin, 3, "N"), light=(light, 3, "N"))
+    _check_arrays(origin=(origin, 3, "N"), light=(light, 3, "N"))
     # TODO media.equiangular: write your solution here
     raise NotImplementedError("media.equiangular: not written yet")
 
@@ -222,7 +222,7 @@ def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
 
     Task: media.in_scattering. Source: Kulla and Fajardo, 2012.
     """
-    _check(
+    _check_arrays(
         sigma_s=(sigma_s, 3),
         sigma_t=(sigma_t, 3),
         distance=(distance, "N"),
@@ -230,7 +230,7 @@ def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
         phase=(phase, "N"),
         density=(density, "N"),
     )
-    _check_colors(sigma_s=sigma_s, sigma_t=sigma_t)
+    _check_not_below_zero(sigma_s=sigma_s, sigma_t=sigma_t)
     # TODO media.in_scattering: write your solution here
     raise NotImplementedError("media.in_scattering: not written yet")
 
@@ -251,7 +251,7 @@ def _density_at(grid, points):
     return found
 
 
-def _check(**arrays):
+def _check_arrays(**arrays):
     known = {}
     for name, (array, *sizes) in arrays.items():
         got = np.shape(array)
@@ -266,12 +266,12 @@ def _check(**arrays):
 
 
 def _check_rays(origin, direction, limit, u, *sizes):
-    _check(
+    _check_arrays(
         origin=(origin, 3, "N"), direction=(direction, 3, "N"), limit=(limit, "N"), u=(u, *sizes)
     )
 
 
-def _check_colors(**colors):
+def _check_not_below_zero(**colors):
     for name, color in colors.items():
         if not (np.asarray(color) >= 0).all():
             raise ValueError(f"{name} must be >= 0, got {color}")

@@ -22,7 +22,8 @@ def ggx(cos, alpha):
 
     Task: microfacets.ggx. Source: Walter et al., "Microfacet models for refraction through rough surfaces", 2007.
     """
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     # TODO microfacets.ggx: write your solution here
     raise NotImplementedError("microfacets.ggx: not written yet")
 
@@ -42,7 +43,8 @@ def smith_g1(cos, alpha):
 
     Task: microfacets.smith_g1. Source: Heitz, "Understanding the masking-shadowing function", 2014.
     """
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     # TODO microfacets.smith_g1: write your solution here
     raise NotImplementedError("microfacets.smith_g1: not written yet")
 
@@ -62,7 +64,8 @@ def smith_g2(cos_o, cos_i, alpha):
 
     Task: microfacets.smith_g2. Source: Heitz, 2014, section 5.3.
     """
-    _check(alpha, cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
     # TODO microfacets.smith_g2: write your solution here
     raise NotImplementedError("microfacets.smith_g2: not written yet")
 
@@ -83,7 +86,8 @@ def sample_visible_normal(wo, alpha, u):
 
     Task: microfacets.sample_visible_normal. Source: Heitz, "Sampling the GGX distribution of visible normals", 2018.
     """
-    _check(alpha, wo=(wo, 3, "N"), u=(u, 2, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), u=(u, 2, "N"))
     # TODO microfacets.sample_visible_normal: write your solution here
     raise NotImplementedError("microfacets.sample_visible_normal: not written yet")
 
@@ -103,7 +107,8 @@ def visible_normal_pdf(wo, wm, alpha):
 
     Task: microfacets.visible_normal_pdf. Source: Heitz, 2018.
     """
-    _check(alpha, wo=(wo, 3, "N"), wm=(wm, 3, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), wm=(wm, 3, "N"))
     # TODO microfacets.visible_normal_pdf: write your solution here
     raise NotImplementedError("microfacets.visible_normal_pdf: not written yet")
 
@@ -123,7 +128,7 @@ def fresnel_complex(cos, n, k):
 
     Task: microfacets.fresnel_complex. Source: Born and Wolf, "Principles of optics", 14.2.
     """
-    _check(1, cos=(cos, "N"), n=(n, 3), k=(k, 3))
+    _check_arrays(cos=(cos, "N"), n=(n, 3), k=(k, 3))
     if not (np.minimum(n, k) >= 0).all() or not np.maximum(n, k).all():
         raise ValueError(f"n and k must be >= 0, and not both 0, got {n} and {k}")
     # TODO microfacets.fresnel_complex: write your solution here
@@ -145,19 +150,26 @@ def brdf(wo, wi, alpha, n, k):
 
     Task: microfacets.brdf. Source: Torrance and Sparrow, 1967; Walter et al., 2007.
     """
-    _check(alpha, wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
     # TODO microfacets.brdf: write your solution here
     raise NotImplementedError("microfacets.brdf: not written yet")
 
 
-def _check(alpha, **arrays):
+def _check_alpha(alpha):
     if not 0.001 <= alpha <= 1:
         raise ValueError(f"alpha must be from 0.001 to 1, got {alpha}")
-    columns = "N"
+
+
+def _check_arrays(**arrays):
+    known = {}
     for name, (array, *sizes) in arrays.items():
-        got, sizes = np.shape(array), [columns if size == "N" else size for size in sizes]
+        got = np.shape(array)
+        wanted = tuple(known.get(size, size) for size in sizes)
         right = len(got) == len(sizes)
-        if not right or any(a not in ("N", b) for a, b in zip(sizes, got, strict=True)):
-            wanted = ", ".join(map(str, sizes)) + "," * (len(sizes) == 1)
-            raise ValueError(f"{name} must have shape ({wanted}), got {got}")
-        columns = got[-1]
+        if not right or any(
+            isinstance(a, int) and a != b for a, b in zip(wanted, got, strict=True)
+        ):
+            text = ", ".join(map(str, wanted)) + "," * (len(sizes) == 1)
+            raise ValueError(f"{name} must have shape ({text}), got {got}")
+        known.update({size: n for size, n in zip(sizes, got, strict=True) if isinstance(size, str)})

@@ -104,7 +104,8 @@ def _check_batch(name, array, rows, columns=None):
         raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
-def _check_numbers(name, array, columns):
+def _check_numbers(name, array, columns=None):
     shape = np.shape(array)
-    if shape != (columns,):
-        raise ValueError(f"{name} must have shape ({columns},), got {shape}")
+    if len(shape) != 1 or (columns is not None and shape[0] != columns):
+        expected = f"({'N' if columns is None else columns},)"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")

@@ -27,8 +27,8 @@ def emit_cone(axis, cos_edge, intensity, count, u):
 
     Task: photon_mapping.emit_cone. Source: Jensen, "Global illumination using photon maps", 1996.
     """
-    _check(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not -1 <= cos_edge < 1:
         raise ValueError(f"cos_edge must be >= -1 and < 1, got {cos_edge}")
     # TODO photon_mapping.emit_cone: write your solution here
@@ -56,8 +56,8 @@ def emit_area(normal, radiance, area, count, u):
 
     Task: photon_mapping.emit_area. Source: Jensen, 1996.
     """
-    _check(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not 0 < area < np.inf:
         raise ValueError(f"area must be > 0, got {area}")
     # TODO photon_mapping.emit_area: write your solution here
@@ -85,8 +85,10 @@ def emit_directional(direction, irradiance, center, radius, count, u):
 
     Task: photon_mapping.emit_directional. Source: Jensen, 1996.
     """
-    _check(direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(
+        direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N")
+    )
+    _check_at_least_one(count)
     if not 0 <= radius < np.inf:
         raise ValueError(f"radius must be finite and >= 0, got {radius}")
     # TODO photon_mapping.emit_directional: write your solution here
@@ -113,7 +115,7 @@ def roulette(power, albedo, u):
 
     Task: photon_mapping.roulette. Source: Jensen, "Realistic image synthesis using photon mapping", 2001.
     """
-    _check(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
+    _check_arrays(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
     # TODO photon_mapping.roulette: write your solution here
     raise NotImplementedError("photon_mapping.roulette: not written yet")
 
@@ -137,7 +139,7 @@ def stored(matte, specular, diffuse):
 
     Task: photon_mapping.stored. Source: Jensen, 1996; the notation of ways by Heckbert, 1990.
     """
-    _check(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
+    _check_arrays(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
     # TODO photon_mapping.stored: write your solution here
     raise NotImplementedError("photon_mapping.stored: not written yet")
 
@@ -161,7 +163,7 @@ def density_estimate(power, direction, distance, normal):
 
     Task: photon_mapping.density_estimate. Source: Jensen, 1996.
     """
-    _check(
+    _check_arrays(
         power=(power, 3, "K", "N"),
         direction=(direction, 3, "K", "N"),
         distance=(distance, "K", "N"),
@@ -190,7 +192,7 @@ def cone_weights(distance, radius, k):
 
     Task: photon_mapping.cone_weights. Source: Jensen, 1996.
     """
-    _check(distance=(distance, "N"), radius=(radius, "N"))
+    _check_arrays(distance=(distance, "N"), radius=(radius, "N"))
     if not k >= 1:
         raise ValueError(f"k must be >= 1, got {k}")
     # TODO photon_mapping.cone_weights: write your solution here
@@ -214,7 +216,9 @@ def final_gather(albedo, seen, irradiance):
 
     Task: photon_mapping.final_gather. Source: Jensen, 1996.
     """
-    _check(albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N"))
+    _check_arrays(
+        albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N")
+    )
     # TODO photon_mapping.final_gather: write your solution here
     raise NotImplementedError("photon_mapping.final_gather: not written yet")
 
@@ -238,14 +242,14 @@ def shrunk_radius(radius, i, alpha):
     Task: photon_mapping.shrunk_radius. Source: Knaus and Zwicker, "Progressive photon mapping: a probabilistic
     approach", 2011.
     """
-    _check(radius=(radius, "N"), i=(i, "N"))
+    _check_arrays(radius=(radius, "N"), i=(i, "N"))
     if not 0.001 <= alpha <= 1:
         raise ValueError(f"alpha must be from 0.001 to 1, got {alpha}")
     # TODO photon_mapping.shrunk_radius: write your solution here
     raise NotImplementedError("photon_mapping.shrunk_radius: not written yet")
 
 
-def _check(**arrays):
+def _check_arrays(**arrays):
     known = {}
     for name, (array, *sizes) in arrays.items():
         got = np.shape(array)
@@ -259,6 +263,6 @@ def _check(**arrays):
         known.update({size: n for size, n in zip(sizes, got, strict=True) if isinstance(size, str)})
 
 
-def _check_count(count):
+def _check_at_least_one(count):
     if not count >= 1:
         raise ValueError(f"count must be >= 1, got {count}")

@@ -95,7 +95,7 @@ def triangle_uv(barycentric, uv0, uv1, uv2):
     """
     _check_batch("barycentric", barycentric, 3)
     for name, uv in (("uv0", uv0), ("uv1", uv1), ("uv2", uv2)):
-        _check_corner(name, uv, np.shape(barycentric)[1])
+        _check_uv(name, uv, np.shape(barycentric)[1])
     # TODO textures.triangle_uv: write your solution here
     raise NotImplementedError("textures.triangle_uv: not written yet")
 
@@ -129,10 +129,11 @@ def texture_lookup(image, uv):
     raise NotImplementedError("textures.texture_lookup: not written yet")
 
 
-def _check_batch(name, array, rows):
+def _check_batch(name, array, rows, columns=None):
     shape = np.shape(array)
-    if len(shape) != 2 or shape[0] != rows:
-        raise ValueError(f"{name} must have shape ({rows}, N), got {shape}")
+    if len(shape) != 2 or shape[0] != rows or (columns is not None and shape[1] != columns):
+        expected = f"({rows}, {'N' if columns is None else columns})"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
 def _check_point(name, point):
@@ -141,7 +142,7 @@ def _check_point(name, point):
         raise ValueError(f"{name} must have shape (3,), got {shape}")
 
 
-def _check_corner(name, uv, columns):
+def _check_uv(name, uv, columns):
     shape = np.shape(uv)
     if shape not in ((2,), (2, columns)):
         raise ValueError(f"{name} must have shape (2,) or (2, {columns}), got {shape}")

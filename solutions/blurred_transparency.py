@@ -144,7 +144,7 @@ def _of_the_batch(eta, *arrays):
 
 
 def _in_basis(w, a, b, c):
-    """Take a u + b v + c w in the orthonormal basis about w: Duff et al., 2017, as in glossy."""
+    """Take a u + b v + c w in the basis about w (Duff et al., 2017), without u and v ever being in memory."""
     x, y, z = w
     sign = np.copysign(1.0, z)
     sunk = sign * x * a + y * b
@@ -162,10 +162,11 @@ def _check_batch(name, array, rows, columns=None):
         raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
-def _check_numbers(name, array):
+def _check_numbers(name, array, columns=None):
     shape = np.shape(array)
-    if len(shape) != 1:
-        raise ValueError(f"{name} must have shape (N,), got {shape}")
+    if len(shape) != 1 or (columns is not None and shape[0] != columns):
+        expected = f"({'N' if columns is None else columns},)"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
 def _check_not_negative(name, number):

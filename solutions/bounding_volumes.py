@@ -251,6 +251,7 @@ def _cross(a, b):
 
 
 def _dot(a, b):
+    """Dot product of each column, rounded alike whatever the memory's layout is."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 

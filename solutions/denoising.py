@@ -252,11 +252,11 @@ def _dtype(*arrays):
 ### END SOLUTION
 
 
-def _check(name, array, *shape):
-    sizes = np.shape(array)
-    fits = len(sizes) == len(shape) and all(
-        isinstance(wanted, str) or size == wanted for size, wanted in zip(sizes, shape, strict=True)
-    )
-    if not fits:
-        wanted = ", ".join(map(str, shape)) + ("," if len(shape) == 1 else "")
-        raise ValueError(f"{name} must have shape ({wanted}), got {sizes}")
+def _check(name, array, *sizes):
+    """The array has the shape; a letter stands for any size."""
+    shape = np.shape(array)
+    if len(shape) != len(sizes) or any(
+        isinstance(size, int) and own != size for own, size in zip(shape, sizes, strict=False)
+    ):
+        expected = ", ".join(map(str, sizes)) + ("," if len(sizes) == 1 else "")
+        raise ValueError(f"{name} must have shape ({expected}), got {shape}")

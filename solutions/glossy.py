@@ -188,7 +188,7 @@ def _within_1(radius, dtype):
 
 
 def _in_basis(w, a, b, c):
-    """Take a u + b v + c w in the orthonormal basis about w, without u and v ever being in memory."""
+    """Take a u + b v + c w in the basis about w (Duff et al., 2017), without u and v ever being in memory."""
     x, y, z = w
     sign = np.copysign(1.0, z)
     sunk = sign * x * a + y * b

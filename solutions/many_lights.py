@@ -357,6 +357,7 @@ def _less(cos_a, sin_a, cos_b, sin_b):
 
 
 def _dot(a, b):
+    """Dot product of each column, rounded alike whatever the memory's layout is."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 

@@ -21,8 +21,8 @@ def transmittance(sigma_t, distance):
 
     Task: media.transmittance. Source: Bouguer, 1729; Lambert, 1760; Beer, 1852.
     """
-    _check(sigma_t=(sigma_t, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t)
+    _check_arrays(sigma_t=(sigma_t, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t)
     ### BEGIN SOLUTION
     return np.exp(-np.outer(sigma_t, distance)).astype(distance.dtype)
     ### END SOLUTION
@@ -45,8 +45,8 @@ def free_flight(sigma_t, weights, u):
 
     Task: media.free_flight. Source: Pharr, Jakob and Humphreys, "Physically based rendering", 2016, 15.2.
     """
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     ### BEGIN SOLUTION
     bounds = np.cumsum(weights, dtype=np.float64)[:2]
     sigma = np.asarray(sigma_t, np.float64)[(u[0] >= bounds[:, None]).sum(axis=0)]
@@ -72,8 +72,8 @@ def free_flight_pdf(sigma_t, weights, distance):
 
     Task: media.free_flight_pdf. Source: Pharr, Jakob and Humphreys, 2016, 15.2.
     """
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     ### BEGIN SOLUTION
     sigma, share = (np.asarray(a, np.float64) for a in (sigma_t, weights))
     return ((share * sigma) @ np.exp(-np.outer(sigma, distance))).astype(distance.dtype)
@@ -94,7 +94,7 @@ def henyey_greenstein(cos, g):
 
     Task: media.henyey_greenstein. Source: Henyey and Greenstein, "Diffuse radiation in the galaxy", 1941.
     """
-    _check(cos=(cos, "N"))
+    _check_arrays(cos=(cos, "N"))
     _check_g(g)
     ### BEGIN SOLUTION
     c = cos.astype(np.float64)
@@ -121,7 +121,7 @@ def sample_henyey_greenstein(direction, g, u):
 
     Task: media.sample_henyey_greenstein. Source: Witt, "Multiple scattering in reflection nebulae", 1977.
     """
-    _check(direction=(direction, 3, "N"), u=(u, 2, "N"))
+    _check_arrays(direction=(direction, 3, "N"), u=(u, 2, "N"))
     _check_g(g)
     ### BEGIN SOLUTION
     dtype = np.result_type(direction, u)
@@ -247,7 +247,7 @@ def equiangular(origin, direction, light, limit, u):
     participating media", 2012.
     """
     _check_rays(origin, direction, limit, u, "N")
-    _check(origin=(origin, 3, "N"), light=(light, 3, "N"))
+    _check_arrays(origin=(origin, 3, "N"), light=(light, 3, "N"))
     ### BEGIN SOLUTION
     dtype = np.result_type(origin, direction, light, limit, u)
     direction, end, u = (each.astype(np.float64) for each in (direction, limit, u))
@@ -281,7 +281,7 @@ def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
 
     Task: media.in_scattering. Source: Kulla and Fajardo, 2012.
     """
-    _check(
+    _check_arrays(
         sigma_s=(sigma_s, 3),
         sigma_t=(sigma_t, 3),
         distance=(distance, "N"),
@@ -289,7 +289,7 @@ def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
         phase=(phase, "N"),
         density=(density, "N"),
     )
-    _check_colors(sigma_s=sigma_s, sigma_t=sigma_t)
+    _check_not_below_zero(sigma_s=sigma_s, sigma_t=sigma_t)
     ### BEGIN SOLUTION
     dtype = np.result_type(distance, beyond, phase, density)
     way = distance.astype(np.float64) + beyond
@@ -314,7 +314,7 @@ def _density_at(grid, points):
     return found
 
 
-def _check(**arrays):
+def _check_arrays(**arrays):
     known = {}
     for name, (array, *sizes) in arrays.items():
         got = np.shape(array)
@@ -329,12 +329,12 @@ def _check(**arrays):
 
 
 def _check_rays(origin, direction, limit, u, *sizes):
-    _check(
+    _check_arrays(
         origin=(origin, 3, "N"), direction=(direction, 3, "N"), limit=(limit, "N"), u=(u, *sizes)
     )
 
 
-def _check_colors(**colors):
+def _check_not_below_zero(**colors):
     for name, color in colors.items():
         if not (np.asarray(color) >= 0).all():
             raise ValueError(f"{name} must be >= 0, got {color}")

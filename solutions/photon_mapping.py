@@ -27,8 +27,8 @@ def emit_cone(axis, cos_edge, intensity, count, u):
 
     Task: photon_mapping.emit_cone. Source: Jensen, "Global illumination using photon maps", 1996.
     """
-    _check(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not -1 <= cos_edge < 1:
         raise ValueError(f"cos_edge must be >= -1 and < 1, got {cos_edge}")
     ### BEGIN SOLUTION
@@ -64,8 +64,8 @@ def emit_area(normal, radiance, area, count, u):
 
     Task: photon_mapping.emit_area. Source: Jensen, 1996.
     """
-    _check(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not 0 < area < np.inf:
         raise ValueError(f"area must be > 0, got {area}")
     ### BEGIN SOLUTION
@@ -100,8 +100,10 @@ def emit_directional(direction, irradiance, center, radius, count, u):
 
     Task: photon_mapping.emit_directional. Source: Jensen, 1996.
     """
-    _check(direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(
+        direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N")
+    )
+    _check_at_least_one(count)
     if not 0 <= radius < np.inf:
         raise ValueError(f"radius must be finite and >= 0, got {radius}")
     ### BEGIN SOLUTION
@@ -135,7 +137,7 @@ def roulette(power, albedo, u):
 
     Task: photon_mapping.roulette. Source: Jensen, "Realistic image synthesis using photon mapping", 2001.
     """
-    _check(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
+    _check_arrays(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
     ### BEGIN SOLUTION
     dtype = np.result_type(power, albedo, u)
     left = power.astype(np.float64) * albedo
@@ -166,7 +168,7 @@ def stored(matte, specular, diffuse):
 
     Task: photon_mapping.stored. Source: Jensen, 1996; the notation of ways by Heckbert, 1990.
     """
-    _check(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
+    _check_arrays(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
     ### BEGIN SOLUTION
     caustic = matte & (specular > 0) & (diffuse == 0)
     indirect = matte & (specular + diffuse > 0)
@@ -193,7 +195,7 @@ def density_estimate(power, direction, distance, normal):
 
     Task: photon_mapping.density_estimate. Source: Jensen, 1996.
     """
-    _check(
+    _check_arrays(
         power=(power, 3, "K", "N"),
         direction=(direction, 3, "K", "N"),
         distance=(distance, "K", "N"),
@@ -228,7 +230,7 @@ def cone_weights(distance, radius, k):
 
     Task: photon_mapping.cone_weights. Source: Jensen, 1996.
     """
-    _check(distance=(distance, "N"), radius=(radius, "N"))
+    _check_arrays(distance=(distance, "N"), radius=(radius, "N"))
     if not k >= 1:
         raise ValueError(f"k must be >= 1, got {k}")
     ### BEGIN SOLUTION
@@ -257,7 +259,9 @@ def final_gather(albedo, seen, irradiance):
 
     Task: photon_mapping.final_gather. Source: Jensen, 1996.
     """
-    _check(albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N"))
+    _check_arrays(
+        albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N")
+    )
     ### BEGIN SOLUTION
     dtype = np.result_type(albedo, seen, irradiance)
     radiance = seen.astype(np.float64) * irradiance / np.pi
@@ -284,7 +288,7 @@ def shrunk_radius(radius, i, alpha):
     Task: photon_mapping.shrunk_radius. Source: Knaus and Zwicker, "Progressive photon mapping: a probabilistic
     approach", 2011.
     """
-    _check(radius=(radius, "N"), i=(i, "N"))
+    _check_arrays(radius=(radius, "N"), i=(i, "N"))
     if not 0.001 <= alpha <= 1:
         raise ValueError(f"alpha must be from 0.001 to 1, got {alpha}")
     ### BEGIN SOLUTION
@@ -317,7 +321,7 @@ def _for_each(color, u):
 ### END SOLUTION
 
 
-def _check(**arrays):
+def _check_arrays(**arrays):
     known = {}
     for name, (array, *sizes) in arrays.items():
         got = np.shape(array)
@@ -331,6 +335,6 @@ def _check(**arrays):
         known.update({size: n for size, n in zip(sizes, got, strict=True) if isinstance(size, str)})
 
 
-def _check_count(count):
+def _check_at_least_one(count):
     if not count >= 1:
         raise ValueError(f"count must be >= 1, got {count}")

@@ -195,10 +195,11 @@ def _on_sphere(u):
 ### END SOLUTION
 
 
-def _check_batch(name, array, rows):
+def _check_batch(name, array, rows, columns=None):
     shape = np.shape(array)
-    if len(shape) != 2 or shape[0] != rows:
-        raise ValueError(f"{name} must have shape ({rows}, N), got {shape}")
+    if len(shape) != 2 or shape[0] != rows or (columns is not None and shape[1] != columns):
+        expected = f"({rows}, {'N' if columns is None else columns})"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
 
 
 def _check_count(n):

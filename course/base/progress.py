@@ -134,7 +134,7 @@ class _Bar:
             self._done = done
             if self._shown is not None:
                 progress, task = self._shown
-                progress.update(task, completed=done, total=1.0)
+                progress.update(task, completed=done, total=1.0, left="left")
 
     def note(self, text: str) -> None:
         """Say something next to the label."""
@@ -172,14 +172,14 @@ class _Bar:
             BarColumn(bar_width=None),
             TaskProgressColumn(),
             TimeElapsedColumn(),
-            TextColumn("gone,"),
+            TextColumn("gone"),
             TimeRemainingColumn(compact=True),
-            TextColumn("left"),
+            TextColumn("{task.fields[left]}"),
             console=Console(stderr=True),
             refresh_per_second=8,
         )
         progress.start()
-        task = progress.add_task(self._label, total=None)
+        task = progress.add_task(self._label, total=None, left="")
         if self._done is not None:
-            progress.update(task, completed=self._done, total=1.0)
+            progress.update(task, completed=self._done, total=1.0, left="left")
         return progress, task

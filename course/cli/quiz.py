@@ -12,6 +12,7 @@ from course.base.errors import CourseError
 from course.base.texts import count
 from course.cli.options import OUT_FOLDER, modules_from
 from course.engine.functions.effects import CHECKOUT, PROJECT
+from course.engine.functions.modules import COURSE
 
 DRAWN_BY = PROJECT / "docs"
 """The folder of the package that draws the site's figures, and those of questions."""
@@ -41,6 +42,8 @@ def quiz(out: Path, modules: tuple[str, ...], held_back: bool) -> None:
 
     if not (PROJECT / "solutions" / "quizzes").is_dir():
         raise CourseError("questions are made from the solutions, and this copy has none")
+    if str(out) in COURSE:
+        raise CourseError(f"{out} is a module, not a folder: course quiz --modules {out} FOLDER")
     check_folder(out)
     # The figures are drawn by the site's own program, which is a package beside the pages.
     if str(DRAWN_BY) not in sys.path:
@@ -50,6 +53,8 @@ def quiz(out: Path, modules: tuple[str, ...], held_back: bool) -> None:
         kept = PROJECT / "out" / "docs" / "quiz"
         if not CHECKOUT:
             kept = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+            # Interrupted, the processes that draw would go on to write into a folder that is being removed.
+            stack.callback(import_module("sitebuild.mistakes.figures").STUDIO.close)
         asked, files = contents(modules, held_back=held_back, kept=kept)
     write_folder(files, out)
     click.echo(

@@ -17,8 +17,11 @@ from sitebuild.place import Place
 
 KEPT = PROJECT / "out" / "docs" / "rays"
 
-FEW = 4
-"""Samples of a pixel where pictures are left blank."""
+LATER = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><title>{title}</title></head>
+<body style="background: #808080"></body></html>
+"""
+"""Stands for the rays where pictures are left blank."""
 
 
 def rays(place: Place, name: str, words: str) -> str:
@@ -34,7 +37,7 @@ def rays(place: Place, name: str, words: str) -> str:
         raise CourseError(f"{words!r} is not a pixel: expected X,Y")
     shown = f"rays-{name.replace('/', '-')}-{x}-{y}.html"
     at = name, int(x), int(y)
-    file = _written(place.made / shown, *at, FEW) if place.blank else view(*at)
+    file = _later(place.made / shown, *at) if place.blank else view(*at)
     (title,) = re.findall("<title>(.*?)</title>", file.read_text(encoding="utf-8"))
     address = place.address(f"rays/{shown}", file)
     return (
@@ -50,7 +53,10 @@ def view(name: str, x: int, y: int, kept: Path = KEPT) -> Path:
     seen = {"title": scene.title, "sampler": scene.sampler.type, "samples": scene.sampler.samples}
     key = scene_hash(loaded, Effects(), pixel=[x, y], seed=scene.seed, page=_sources(), **seen)
     file = kept / f"{key}.html"
-    return file if file.is_file() else _written(file, name, x, y)
+    if not file.is_file():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_text(file, _page(name, x, y))
+    return file
 
 
 @cache
@@ -60,12 +66,17 @@ def _sources() -> str:
     return sha256(b"".join(path.read_bytes() for path in sorted(files))).hexdigest()
 
 
-def _written(file: Path, name: str, x: int, y: int, spp: int | None = None) -> Path:
+def _later(file: Path, name: str, x: int, y: int) -> Path:
+    scene = scene_path(name)
+    film = load_description(scene).description.film
+    if x >= film.width or y >= film.height:
+        raise CourseError(
+            f"{scene.name} has {film.width}x{film.height} pixels; there is no {x},{y}"
+        )
     file.parent.mkdir(parents=True, exist_ok=True)
-    write_text(file, _page(name, x, y, spp))
+    write_text(file, LATER.format(title=f"pixel {x},{y} of {scene.name}"))
     return file
 
 
-@cache
-def _page(name: str, x: int, y: int, spp: int | None) -> str:
-    return page(pixel(scene_path(name), x, y, spp=spp))
+def _page(name: str, x: int, y: int) -> str:
+    return page(pixel(scene_path(name), x, y))

@@ -51,13 +51,16 @@ def test_a_terminal_shows_a_bar_on_stderr(
         terminal.wait_for("box")
         report(1.0, True)
     assert "100%" in terminal.getvalue()
+    assert "left" in terminal.getvalue()
     assert not capsys.readouterr().out
 
 
 def test_a_bar_is_shown_before_the_first_report(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = _terminal(monkeypatch)
     with progress.progress_bar("reading a scene"):
-        terminal.wait_for("reading a scene")
+        terminal.wait_for("gone")
+    assert "reading a scene" in terminal.getvalue()
+    assert "left" not in terminal.getvalue()
 
 
 def test_short_work_shows_no_bar(

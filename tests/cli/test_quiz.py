@@ -1,6 +1,7 @@
 """`course quiz`: questions for learning platforms, in a folder for the instructor."""
 
 import csv
+from importlib import import_module
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -39,3 +40,31 @@ def test_a_students_copy_has_no_questions(
     assert refused.exit_code == 1
     assert "this copy has none" in refused.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_a_module_is_no_folder(run: Run, tmp_path: Path) -> None:
+    refused = run("quiz", "film")
+    assert refused.exit_code == 1
+    assert "course quiz --modules film FOLDER" in refused.stderr
+    assert not (tmp_path / "film").exists()
+
+
+def test_interrupted_it_ends_the_processes_that_draw_before_their_folder_is_removed(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(quiz.DRAWN_BY)
+    there: list[bool] = []
+    folders: list[Path] = []
+
+    def contents(*_: object, kept: Path, **__: object) -> None:
+        folders.append(kept)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(quiz, "CHECKOUT", False)
+    monkeypatch.setattr(import_module("sitebuild.quiz.export"), "contents", contents)
+    studio = import_module("sitebuild.mistakes.figures").STUDIO
+    monkeypatch.setattr(studio, "close", lambda: there.append(folders[0].is_dir()))
+    done = run("quiz", "out", "--modules", "film")
+    assert (done.exit_code, done.stderr) == (130, "interrupted\n")
+    assert there == [True]
+    assert not folders[0].exists()

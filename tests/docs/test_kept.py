@@ -17,6 +17,7 @@ from sitebuild import kept, notebook, parts, rays
 from sitebuild.place import Place
 from sphinx.project import Project
 
+from course.base.errors import CourseError
 from course.engine.functions.effects import PROJECT
 
 
@@ -156,4 +157,14 @@ def test_the_rays_of_a_pixel_are_followed_once(
     files = [rays.view(*pixel, tmp_path) for pixel in pixels]
     assert len({*files}) == len(pixels)
     assert [rays.view(*pixel, tmp_path) for pixel in pixels] == files
-    assert followed == [(*pixel, None) for pixel in pixels]
+    assert followed == pixels
+
+
+def test_a_blank_page_follows_no_rays_and_knows_its_pixel(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr(rays, "_page")
+    blank = Place("", blank=True, made=tmp_path, files={})
+    assert 'title="The rays of pixel 7,9 of film.yaml"' in rays.rays(blank, "film", "7,9")
+    with pytest.raises(CourseError, match=r"film\.yaml has \d+x\d+ pixels; there is no 9999,0"):
+        rays.rays(blank, "film", "9999,0")

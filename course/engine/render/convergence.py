@@ -64,11 +64,16 @@ class ErrorOverTime:
         axes = figure.subplots()
         for (name, points), mark in zip(self.points.items(), "os^vDPX*<>" * 9, strict=False):
             seconds, errors = ([getattr(p, key) for p in points] for key in ("seconds", "error"))
-            axes.loglog(seconds, errors, f"{mark}-", label=name)
-            axes.annotate(f"{points[-1].samples} samples", (seconds[-1], errors[-1]), fontsize=8)
+            told = f"{name}, up to {points[-1].samples} a pixel"
+            axes.loglog(seconds, errors, f"{mark}-", label=told, subs=(2, 5))
+        # Matplotlib's own numbers between powers of ten would lie one over the other.
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter("{x:g}")
+            axis.set_minor_formatter("{x:g}")
+        axes.tick_params(which="both", labelsize=7)
         axes.set(title=self.title, xlabel="seconds", ylabel="root-mean-square error")
         axes.grid(alpha=0.3)
-        axes.legend()
+        axes.legend(title="samples")
         file = BytesIO()
         figure.savefig(file, format="png", dpi=DOTS)
         return file.getvalue()

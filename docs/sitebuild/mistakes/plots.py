@@ -64,14 +64,16 @@ def _plotted(draw: Plot, curve: bool, made: ModuleType, right: ModuleType) -> Im
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    from sitebuild.mistakes.tick_numbers import TickNumbers
+
     figure = Figure(figsize=(SIZE[0] / 100, SIZE[1] / 100), dpi=100 * SHARPNESS)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.13, 0.2, 0.84, 0.75) if curve else (0.01, 0.01, 0.98, 0.98))
     if curve:
         axes.tick_params(labelsize=SMALL, length=2, pad=1.5)
         axes.locator_params(nbins=4)
-        axes.ticklabel_format(scilimits=(-3, 4), useMathText=True, useOffset=False)
         for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(TickNumbers())
             axis.get_offset_text().set_size(SMALL)
         axes.spines[["top", "right"]].set_visible(False)
     else:

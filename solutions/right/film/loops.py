@@ -7,7 +7,7 @@ import numpy as np
 
 def expose(radiance, stops):
     """Channel by channel."""
-    _check_batch("radiance", radiance)
+    _check_batch("radiance", radiance, 3)
     _check_number("stops", stops, math.isfinite(stops), "finite")
     factor = math.pow(2, stops)
     return np.array([[factor * float(x) for x in row] for row in radiance], radiance.dtype)
@@ -15,14 +15,14 @@ def expose(radiance, stops):
 
 def luminance(rgb):
     """Pixel by pixel."""
-    _check_batch("rgb", rgb)
+    _check_batch("rgb", rgb, 3)
     found = [0.2126 * float(r) + 0.7152 * float(g) + 0.0722 * float(b) for r, g, b in rgb.T]
     return np.array(found, rgb.dtype)
 
 
 def encode_srgb(linear):
     """Value by value."""
-    _check_batch("linear", linear)
+    _check_batch("linear", linear, 3)
 
     def curve(x):
         x = min(max(x, 0.0), 1.0)
@@ -33,7 +33,7 @@ def encode_srgb(linear):
 
 def quantize(encoded, u):
     """Value by value."""
-    _check_batch("encoded", encoded)
+    _check_batch("encoded", encoded, 3)
     if np.shape(u) != np.shape(encoded):
         raise ValueError("u must have the shape of encoded")
     found = np.zeros(encoded.shape, np.int64)

@@ -5,21 +5,21 @@ import numpy as np
 
 def expose(radiance, stops):
     """A factor."""
-    _check_batch("radiance", radiance)
+    _check_batch("radiance", radiance, 3)
     _check_number("stops", stops, np.isfinite(stops), "finite")
     return np.asfortranarray(np.ldexp(radiance, 0) * 2.0**stops, radiance.dtype)
 
 
 def luminance(rgb):
     """A sum."""
-    _check_batch("rgb", rgb)
+    _check_batch("rgb", rgb, 3)
     red, green, blue = rgb
     return (0.2126 * red + 0.7152 * green + 0.0722 * blue).astype(rgb.dtype)
 
 
 def photographic(radiance, key, burn, saturation):
     """Single precision where the picture has it."""
-    _check_batch("radiance", radiance)
+    _check_batch("radiance", radiance, 3)
     _check_number("key", key, 0 < key < np.inf, "finite and > 0")
     _check_number("burn", burn, 0 <= burn <= 100, "from 0 to 100")
     _check_number("saturation", saturation, 0 <= saturation < np.inf, "finite and >= 0")
@@ -37,7 +37,7 @@ def photographic(radiance, key, burn, saturation):
 
 def encode_srgb(linear):
     """A copy, changed in place."""
-    _check_batch("linear", linear)
+    _check_batch("linear", linear, 3)
     found = linear.clip(0, 1)
     dark = found <= 0.0031308
     found[dark] *= 12.92
@@ -47,7 +47,7 @@ def encode_srgb(linear):
 
 def quantize(encoded, u):
     """In single precision where they have it."""
-    _check_batch("encoded", encoded)
+    _check_batch("encoded", encoded, 3)
     if np.shape(u) != np.shape(encoded):
         raise ValueError("u must have the shape of encoded")
     return np.clip((255 * encoded + u).astype(int), 0, 255)
@@ -55,7 +55,7 @@ def quantize(encoded, u):
 
 def convert_gamut(rgb, source, target):
     """One matrix, by einsum."""
-    _check_batch("rgb", rgb)
+    _check_batch("rgb", rgb, 3)
     for gamut in (source, target):
         if np.shape(gamut) != (2, 4):
             raise ValueError("source and target must have shape (2, 4)")

@@ -5,7 +5,7 @@ import numpy as np
 
 def photographic(radiance, key, burn, saturation):
     """Luminances sorted once, colours from logarithms of ratios."""
-    _check_batch("radiance", radiance)
+    _check_batch("radiance", radiance, 3)
     _check_number("key", key, 0 < key < np.inf, "finite and > 0")
     _check_number("burn", burn, 0 <= burn <= 100, "from 0 to 100")
     _check_number("saturation", saturation, 0 <= saturation < np.inf, "finite and >= 0")
@@ -29,7 +29,7 @@ def photographic(radiance, key, burn, saturation):
 
 def convert_gamut(rgb, source, target):
     """Pixels to XYZ, and back by an inverse."""
-    _check_batch("rgb", rgb)
+    _check_batch("rgb", rgb, 3)
     if np.shape(source) != (2, 4) or np.shape(target) != (2, 4):
         raise ValueError("source and target must have shape (2, 4)")
 

@@ -61,8 +61,8 @@ def power_heuristic(a, b):
     """Double precision, where single ones' squares fit."""
     _check_numbers("a", a)
     _check_numbers("b", b, np.shape(a)[0])
-    _check_not_negative("a", a)
-    _check_not_negative("b", b)
+    _check_none_negative("a", a)
+    _check_none_negative("b", b)
     dtype = np.result_type(a, b)
     a, b = a.astype(np.longdouble), b.astype(np.longdouble)
     total = a * a + b * b
@@ -73,6 +73,6 @@ def _check_samples(f, pdf):
     if np.ndim(f) not in (1, 2):
         raise ValueError(f"f must have shape (N,) or (C, N), got {np.shape(f)}")
     _check_numbers("pdf", pdf, np.shape(f)[-1])
-    _check_not_negative("pdf", pdf)
+    _check_none_negative("pdf", pdf)
     if ((pdf == 0) & (f != 0)).any():
         raise ValueError("pdf must be > 0 where f is not 0")

@@ -52,7 +52,7 @@ def estimate(f, pdf):
     if np.ndim(f) not in (1, 2):
         raise ValueError(f"f must have shape (N,) or (C, N), got {np.shape(f)}")
     _check_numbers("pdf", pdf, np.shape(f)[-1])
-    _check_not_negative("pdf", pdf)
+    _check_none_negative("pdf", pdf)
     if ((pdf == 0) & (f != 0)).any():
         raise ValueError("pdf must be > 0 where f is not 0")
     value = np.zeros(f.T.shape, np.result_type(f, pdf))
@@ -67,8 +67,8 @@ def power_heuristic(a, b):
     """The textbook's formula where a is over 0."""
     _check_numbers("a", a)
     _check_numbers("b", b, np.shape(a)[0])
-    _check_not_negative("a", a)
-    _check_not_negative("b", b)
+    _check_none_negative("a", a)
+    _check_none_negative("b", b)
     weight = np.zeros(len(a), np.result_type(a, b))
     some = a > 0
     weight[some] = a[some] ** 2 / (a[some] ** 2 + b[some] ** 2)

@@ -64,8 +64,8 @@ def power_heuristic(a, b):
     """One pair at a time."""
     _check_numbers("a", a)
     _check_numbers("b", b, np.shape(a)[0])
-    _check_not_negative("a", a)
-    _check_not_negative("b", b)
+    _check_none_negative("a", a)
+    _check_none_negative("b", b)
     result = np.zeros(len(a), np.result_type(a, b))
     for i, (x, y) in enumerate(zip(a.tolist(), b.tolist(), strict=True)):
         if x > 0:
@@ -79,6 +79,6 @@ def _check_samples(f, pdf):
     if np.ndim(f) not in (1, 2):
         raise ValueError(f"f must have shape (N,) or (C, N), got {np.shape(f)}")
     _check_numbers("pdf", pdf, np.shape(f)[-1])
-    _check_not_negative("pdf", pdf)
+    _check_none_negative("pdf", pdf)
     if ((pdf == 0) & (f != 0)).any():
         raise ValueError("pdf must be > 0 where f is not 0")

@@ -7,8 +7,8 @@ import numpy as np
 
 def transmittance(sigma_t, distance):
     """One number at a time."""
-    _check(sigma_t=(sigma_t, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t)
+    _check_arrays(sigma_t=(sigma_t, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t)
     result = np.empty((3, len(distance)), distance.dtype)
     for i in range(len(distance)):
         for k in range(3):
@@ -18,8 +18,8 @@ def transmittance(sigma_t, distance):
 
 def free_flight(sigma_t, weights, u):
     """The channel by subtraction of weights."""
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     result = np.empty(u.shape[1], u.dtype)
     for i in range(u.shape[1]):
         channel, rest = 0, float(u[0, i])
@@ -33,8 +33,8 @@ def free_flight(sigma_t, weights, u):
 
 def free_flight_pdf(sigma_t, weights, distance):
     """A sum of three."""
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     result = np.zeros(len(distance), distance.dtype)
     for i in range(len(distance)):
         found = 0.0
@@ -46,7 +46,7 @@ def free_flight_pdf(sigma_t, weights, distance):
 
 def henyey_greenstein(cos, g):
     """As the formula is written."""
-    _check(cos=(cos, "N"))
+    _check_arrays(cos=(cos, "N"))
     _check_g(g)
     result = np.empty(len(cos), cos.dtype)
     for i in range(len(cos)):
@@ -96,7 +96,7 @@ def ratio_tracking(grid, majorant, origin, direction, limit, u):
 
 def sample_henyey_greenstein(direction, g, u):
     """One direction after the other, turned about the light's way."""
-    _check(direction=(direction, 3, "N"), u=(u, 2, "N"))
+    _check_arrays(direction=(direction, 3, "N"), u=(u, 2, "N"))
     _check_g(g)
     dtype = np.result_type(direction, u)
     ways, densities = np.empty(direction.shape, dtype), np.empty(u.shape[1], dtype)
@@ -124,7 +124,7 @@ def sample_henyey_greenstein(direction, g, u):
 def equiangular(origin, direction, light, limit, u):
     """The angle at the lamp, ray by ray."""
     _check_rays(origin, direction, limit, u, "N")
-    _check(origin=(origin, 3, "N"), light=(light, 3, "N"))
+    _check_arrays(origin=(origin, 3, "N"), light=(light, 3, "N"))
     dtype = np.result_type(origin, direction, light, limit, u)
     distances, densities = np.empty(len(limit), dtype), np.empty(len(limit), dtype)
     for i in range(len(limit)):

@@ -5,7 +5,7 @@ import numpy as np
 
 def sample_henyey_greenstein(direction, g, u):
     """The first number turned around, and a basis from the axis that is farthest."""
-    _check(direction=(direction, 3, "N"), u=(u, 2, "N"))
+    _check_arrays(direction=(direction, 3, "N"), u=(u, 2, "N"))
     _check_g(g)
     dtype = np.result_type(direction, u)
     d, u = direction.astype(np.float64), u.astype(np.float64)
@@ -29,7 +29,7 @@ def sample_henyey_greenstein(direction, g, u):
 def equiangular(origin, direction, light, limit, u):
     """Angles by arctan of ratios, and the density from the distance itself."""
     _check_rays(origin, direction, limit, u, "N")
-    _check(origin=(origin, 3, "N"), light=(light, 3, "N"))
+    _check_arrays(origin=(origin, 3, "N"), light=(light, 3, "N"))
     dtype = np.result_type(origin, direction, light, limit, u)
     o, d, p, end, u = (a.astype(np.float64) for a in (origin, direction, light, limit, u))
     foot = ((p - o) * d).sum(axis=0)

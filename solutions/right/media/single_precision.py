@@ -5,16 +5,16 @@ import numpy as np
 
 def transmittance(sigma_t, distance):
     """A power of 1 / e."""
-    _check(sigma_t=(sigma_t, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t)
+    _check_arrays(sigma_t=(sigma_t, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t)
     sigma = np.asarray(sigma_t).astype(distance.dtype)[:, None]
     return np.exp(-sigma * distance)
 
 
 def free_flight(sigma_t, weights, u):
     """Channels by np.searchsorted."""
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), u=(u, 2, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     channel = np.searchsorted(np.cumsum(weights), u[0], side="right").clip(0, 2)
     sigma = np.asarray(sigma_t).astype(u.dtype)[channel]
     result = np.full(u.shape[1], np.inf, u.dtype)
@@ -24,8 +24,8 @@ def free_flight(sigma_t, weights, u):
 
 def free_flight_pdf(sigma_t, weights, distance):
     """Columns of channels."""
-    _check(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
-    _check_colors(sigma_t=sigma_t, weights=weights)
+    _check_arrays(sigma_t=(sigma_t, 3), weights=(weights, 3), distance=(distance, "N"))
+    _check_not_below_zero(sigma_t=sigma_t, weights=weights)
     sigma = np.asarray(sigma_t).astype(distance.dtype)[:, None]
     share = np.asarray(weights).astype(distance.dtype)[:, None]
     return (share * sigma * np.exp(-sigma * distance)).sum(axis=0)
@@ -33,7 +33,7 @@ def free_flight_pdf(sigma_t, weights, distance):
 
 def henyey_greenstein(cos, g):
     """As the formula is written."""
-    _check(cos=(cos, "N"))
+    _check_arrays(cos=(cos, "N"))
     _check_g(g)
     g = cos.dtype.type(g)
     below = 1 + g * g - 2 * g * cos
@@ -42,7 +42,7 @@ def henyey_greenstein(cos, g):
 
 def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
     """Two exponentials."""
-    _check(
+    _check_arrays(
         sigma_s=(sigma_s, 3),
         sigma_t=(sigma_t, 3),
         distance=(distance, "N"),
@@ -50,7 +50,7 @@ def in_scattering(sigma_s, sigma_t, distance, beyond, phase, density):
         phase=(phase, "N"),
         density=(density, "N"),
     )
-    _check_colors(sigma_s=sigma_s, sigma_t=sigma_t)
+    _check_not_below_zero(sigma_s=sigma_s, sigma_t=sigma_t)
     dtype = np.result_type(distance, beyond, phase, density)
     extinction = np.asarray(sigma_t).astype(dtype)[:, None]
     left = np.exp(-extinction * distance) * np.exp(-extinction * beyond)

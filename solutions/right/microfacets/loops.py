@@ -39,26 +39,30 @@ def _one_f(c, index):
 
 def ggx(cos, alpha):
     """One by one."""
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     return _each(lambda c: _one_d(c, alpha), len(cos), cos.dtype, cos)
 
 
 def smith_g1(cos, alpha):
     """One by one."""
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     return _each(lambda c: _one_g([c], alpha), len(cos), cos.dtype, cos)
 
 
 def smith_g2(cos_o, cos_i, alpha):
     """One by one."""
-    _check(alpha, cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
     kind = np.result_type(cos_o, cos_i)
     return _each(lambda *c: _one_g(c, alpha), len(cos_o), kind, cos_o, cos_i)
 
 
 def sample_visible_normal(wo, alpha, u):
     """The view mirrored in a cap of the sphere, one by one."""
-    _check(alpha, wo=(wo, 3, "N"), u=(u, 2, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), u=(u, 2, "N"))
 
     def one(w, numbers):
         x, y, z = alpha * w[0], alpha * w[1], w[2]
@@ -77,7 +81,8 @@ def sample_visible_normal(wo, alpha, u):
 
 def visible_normal_pdf(wo, wm, alpha):
     """One by one."""
-    _check(alpha, wo=(wo, 3, "N"), wm=(wm, 3, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), wm=(wm, 3, "N"))
 
     def one(o, m):
         slant = max(o[0] * m[0] + o[1] * m[1] + o[2] * m[2], 0)
@@ -88,7 +93,7 @@ def visible_normal_pdf(wo, wm, alpha):
 
 def fresnel_complex(cos, n, k):
     """One by one."""
-    _check(1, cos=(cos, "N"), n=(n, 3), k=(k, 3))
+    _check_arrays(cos=(cos, "N"), n=(n, 3), k=(k, 3))
     index = [complex(a, b) for a, b in zip(n, k, strict=True)]
     for each in index:
         if not (each.real >= 0 and each.imag >= 0) or each == 0:
@@ -98,7 +103,8 @@ def fresnel_complex(cos, n, k):
 
 def brdf(wo, wi, alpha, n, k):
     """One by one."""
-    _check(alpha, wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
     index = [complex(a, b) for a, b in zip(n, k, strict=True)]
 
     def one(o, i):

@@ -5,7 +5,7 @@ import numpy as np
 
 def fresnel_complex(cos, n, k):
     """By the real and the imaginary part of the root."""
-    _check(1, cos=(cos, "N"), n=(n, 3), k=(k, 3))
+    _check_arrays(cos=(cos, "N"), n=(n, 3), k=(k, 3))
     if (np.asarray([n, k]) < 0).any() or np.isnan([n, k]).any():
         raise ValueError("n and k must not be below 0")
     if (np.add(n, k) == 0).any():
@@ -34,7 +34,8 @@ def _one_channel(cos, n, k):
 
 def ggx(cos, alpha):
     """As a power of the whole."""
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     c = cos.astype(np.longdouble)
     whole = (alpha / (1 - c * c * (1 - np.longdouble(alpha) ** 2))) ** 2 / np.pi
     whole[c <= 0] = 0
@@ -43,7 +44,8 @@ def ggx(cos, alpha):
 
 def smith_g1(cos, alpha):
     """By the sine."""
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     result = np.zeros(len(cos))
     seen = cos > 0
     c = cos[seen].astype(np.float64)
@@ -53,7 +55,8 @@ def smith_g1(cos, alpha):
 
 def smith_g2(cos_o, cos_i, alpha):
     """By 1 / G1."""
-    _check(alpha, cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
     result = np.zeros(len(cos_o))
     seen = (cos_o > 0) & (cos_i > 0)
     some = [1 / smith_g1(c[seen].astype(np.float64), alpha) for c in (cos_o, cos_i)]
@@ -63,7 +66,8 @@ def smith_g2(cos_o, cos_i, alpha):
 
 def sample_visible_normal(wo, alpha, u):
     """Heitz's way, in the plane of view and normal, and turned to the view at the end."""
-    _check(alpha, wo=(wo, 3, "N"), u=(u, 2, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), u=(u, 2, "N"))
     x, y, z = np.asarray(wo, np.float64)
     u1, u2 = np.asarray(u, np.float64)
     flat = np.hypot(x, y)
@@ -85,7 +89,8 @@ def sample_visible_normal(wo, alpha, u):
 
 def visible_normal_pdf(wo, wm, alpha):
     """Masking over the cosine, in one formula."""
-    _check(alpha, wo=(wo, 3, "N"), wm=(wm, 3, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), wm=(wm, 3, "N"))
     z = np.asarray(wo[2], np.float64)
     root = np.sqrt(alpha**2 + (1 - alpha**2) * z**2)
     turned = sum(a.astype(np.float64) * b for a, b in zip(wo, wm, strict=True))

@@ -15,7 +15,8 @@ def _tangent(cos):
 
 def ggx(cos, alpha):
     """By the slopes: their density is 1 / (pi alpha^2 (1 + slope^2 / alpha^2)^2), over cos^4."""
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     slope, safe = _tangent(cos)
     relative = slope / float(alpha)
     per_slope = 1 / (np.pi * float(alpha) ** 2) / (1 + relative**2) ** 2
@@ -29,20 +30,23 @@ def _hidden(cos, alpha):
 
 def smith_g1(cos, alpha):
     """By Lambda."""
-    _check(alpha, cos=(cos, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos=(cos, "N"))
     return (_above(cos) / (1 + _hidden(cos, alpha))).astype(cos.dtype)
 
 
 def smith_g2(cos_o, cos_i, alpha):
     """By both Lambdas."""
-    _check(alpha, cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
+    _check_alpha(alpha)
+    _check_arrays(cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
     both = 1 + _hidden(cos_o, alpha) + _hidden(cos_i, alpha)
     return (_above(cos_o) * _above(cos_i) / both).astype(np.result_type(cos_o, cos_i))
 
 
 def sample_visible_normal(wo, alpha, u):
     """The view mirrored by visible normals of a hemisphere is uniform over a cap."""
-    _check(alpha, wo=(wo, 3, "N"), u=(u, 2, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), u=(u, 2, "N"))
     kind = np.promote_types(wo.dtype, u.dtype)
     squeezed = wo.astype(np.float64)
     squeezed[:2] *= float(alpha)
@@ -60,7 +64,8 @@ def sample_visible_normal(wo, alpha, u):
 
 def visible_normal_pdf(wo, wm, alpha):
     """What is seen of a microfacet over what is seen of all: the latter is cos (1 + Lambda)."""
-    _check(alpha, wo=(wo, 3, "N"), wm=(wm, 3, "N"))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), wm=(wm, 3, "N"))
     cos = wo[2].astype(np.float64)
     all_of_it = (cos + np.sqrt(cos**2 + float(alpha) ** 2 * (1 - cos) * (1 + cos))) / 2
     slant = np.einsum("ij,ij->j", wo.astype(np.float64), wm.astype(np.float64))
@@ -70,7 +75,8 @@ def visible_normal_pdf(wo, wm, alpha):
 
 def brdf(wo, wi, alpha, n, k):
     """By the density of visible normals, which has all but the shadowing in it."""
-    _check(alpha, wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
+    _check_alpha(alpha)
+    _check_arrays(wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
     kind = np.promote_types(wo.dtype, wi.dtype)
     o, i = (w.astype(np.float64) for w in (wo, wi))
     both = (o[2] > 0) & (i[2] > 0)

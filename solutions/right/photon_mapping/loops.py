@@ -7,8 +7,8 @@ import numpy as np
 
 def emit_cone(axis, cos_edge, intensity, count, u):
     """Each direction turned about the axis."""
-    _check(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not -1 <= cos_edge < 1:
         raise ValueError(f"cos_edge must be >= -1 and < 1, got {cos_edge}")
     directions, powers = np.empty((3, u.shape[1]), u.dtype), np.empty((3, u.shape[1]), u.dtype)
@@ -21,8 +21,8 @@ def emit_cone(axis, cos_edge, intensity, count, u):
 
 def emit_area(normal, radiance, area, count, u):
     """By the root of the first number."""
-    _check(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not 0 < area < math.inf:
         raise ValueError(f"area must be > 0, got {area}")
     dtype = np.result_type(normal, u)
@@ -36,7 +36,7 @@ def emit_area(normal, radiance, area, count, u):
 
 def roulette(power, albedo, u):
     """The largest of three numbers, twice."""
-    _check(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
+    _check_arrays(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
     survives = np.zeros(len(u), bool)
     rest = np.zeros(power.shape, np.result_type(power, albedo, u))
     for i in range(len(u)):
@@ -50,7 +50,7 @@ def roulette(power, albedo, u):
 
 def stored(matte, specular, diffuse):
     """As the words say."""
-    _check(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
+    _check_arrays(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
     caustic, indirect = np.zeros(len(matte), bool), np.zeros(len(matte), bool)
     for i in range(len(matte)):
         if not matte[i]:
@@ -64,7 +64,7 @@ def stored(matte, specular, diffuse):
 
 def density_estimate(power, direction, distance, normal):
     """One photon after the other."""
-    _check(
+    _check_arrays(
         power=(power, 3, "K", "N"),
         direction=(direction, 3, "K", "N"),
         distance=(distance, "K", "N"),
@@ -83,7 +83,7 @@ def density_estimate(power, direction, distance, normal):
 
 def cone_weights(distance, radius, k):
     """One height after the other."""
-    _check(distance=(distance, "N"), radius=(radius, "N"))
+    _check_arrays(distance=(distance, "N"), radius=(radius, "N"))
     if not k >= 1:
         raise ValueError(f"k must be >= 1, got {k}")
     result = np.zeros(len(distance), np.result_type(distance, radius))
@@ -96,7 +96,9 @@ def cone_weights(distance, radius, k):
 
 def final_gather(albedo, seen, irradiance):
     """Ray after ray."""
-    _check(albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N"))
+    _check_arrays(
+        albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N")
+    )
     result = np.zeros(albedo.shape, np.result_type(albedo, seen, irradiance))
     rays = seen.shape[1]
     for i in range(albedo.shape[1]):
@@ -110,7 +112,7 @@ def final_gather(albedo, seen, irradiance):
 
 def shrunk_radius(radius, i, alpha):
     """Areas, and then their roots."""
-    _check(radius=(radius, "N"), i=(i, "N"))
+    _check_arrays(radius=(radius, "N"), i=(i, "N"))
     if not 0.001 <= alpha <= 1:
         raise ValueError(f"alpha must be from 0.001 to 1, got {alpha}")
     result = np.empty(len(radius), radius.dtype)

@@ -5,8 +5,8 @@ import numpy as np
 
 def emit_cone(axis, cos_edge, intensity, count, u):
     """The cosine by a mean of the two ends, and the turn the other way round."""
-    _check(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(axis=(axis, 3), intensity=(intensity, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not -1 <= cos_edge < 1:
         raise ValueError(f"cos_edge must be >= -1 and < 1, got {cos_edge}")
     v = u.astype(np.float64)
@@ -24,8 +24,8 @@ def emit_cone(axis, cos_edge, intensity, count, u):
 
 def emit_area(normal, radiance, area, count, u):
     """The normal plus a uniform direction, normalised: it has the density of the cosine."""
-    _check(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(normal=(normal, 3, "N"), radiance=(radiance, 3), u=(u, 2, "N"))
+    _check_at_least_one(count)
     if not 0 < area < np.inf:
         raise ValueError(f"area must be > 0, got {area}")
     dtype = np.result_type(normal, u)
@@ -48,8 +48,10 @@ def emit_area(normal, radiance, area, count, u):
 
 def emit_directional(direction, irradiance, center, radius, count, u):
     """A point of the disk in the plane of x and y, carried there by a reflection."""
-    _check(direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(
+        direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N")
+    )
+    _check_at_least_one(count)
     if not 0 <= radius < np.inf:
         raise ValueError(f"radius must be finite and >= 0, got {radius}")
     w = np.asarray(direction, np.float64)
@@ -68,7 +70,7 @@ def emit_directional(direction, irradiance, center, radius, count, u):
 
 def density_estimate(power, direction, distance, normal):
     """What comes from behind is set to nothing."""
-    _check(
+    _check_arrays(
         power=(power, 3, "K", "N"),
         direction=(direction, 3, "K", "N"),
         distance=(distance, "K", "N"),

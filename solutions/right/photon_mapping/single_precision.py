@@ -5,8 +5,10 @@ import numpy as np
 
 def emit_directional(direction, irradiance, center, radius, count, u):
     """A basis by cross products."""
-    _check(direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N"))
-    _check_count(count)
+    _check_arrays(
+        direction=(direction, 3), irradiance=(irradiance, 3), center=(center, 3), u=(u, 2, "N")
+    )
+    _check_at_least_one(count)
     if not 0 <= radius < np.inf:
         raise ValueError(f"radius must be finite and >= 0, got {radius}")
     # The rows of the last factor: the way itself, and two that are at right angles to it.
@@ -22,7 +24,7 @@ def emit_directional(direction, irradiance, center, radius, count, u):
 
 def roulette(power, albedo, u):
     """Everything in the dtype of the batch."""
-    _check(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
+    _check_arrays(power=(power, 3, "N"), albedo=(albedo, 3, "N"), u=(u, "N"))
     left = power * albedo
     rest = np.zeros(left.shape, np.result_type(left, u))
     most = np.max(left, axis=0)
@@ -34,7 +36,7 @@ def roulette(power, albedo, u):
 
 def stored(matte, specular, diffuse):
     """By what it isn't."""
-    _check(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
+    _check_arrays(matte=(matte, "N"), specular=(specular, "N"), diffuse=(diffuse, "N"))
     straight = (specular == 0) & (diffuse == 0)
     indirect = np.logical_and(matte, ~straight)
     return np.logical_and(indirect, diffuse == 0), indirect
@@ -42,7 +44,7 @@ def stored(matte, specular, diffuse):
 
 def cone_weights(distance, radius, k):
     """Masked."""
-    _check(distance=(distance, "N"), radius=(radius, "N"))
+    _check_arrays(distance=(distance, "N"), radius=(radius, "N"))
     if not k >= 1:
         raise ValueError(f"k must be >= 1, got {k}")
     share = distance / radius
@@ -53,14 +55,16 @@ def cone_weights(distance, radius, k):
 
 def final_gather(albedo, seen, irradiance):
     """An einsum."""
-    _check(albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N"))
+    _check_arrays(
+        albedo=(albedo, 3, "N"), seen=(seen, 3, "M", "N"), irradiance=(irradiance, 3, "M", "N")
+    )
     total = np.einsum("cn,cmn,cmn->cn", albedo, seen, irradiance)
     return total / total.dtype.type(np.pi * seen.shape[1])
 
 
 def shrunk_radius(radius, i, alpha):
     """One less the share that is lost."""
-    _check(radius=(radius, "N"), i=(i, "N"))
+    _check_arrays(radius=(radius, "N"), i=(i, "N"))
     if not 0.001 <= alpha <= 1:
         raise ValueError(f"alpha must be from 0.001 to 1, got {alpha}")
     return radius * np.sqrt(1 - (1 - alpha) / (np.asarray(i) + 1.0)).astype(radius.dtype)

@@ -33,7 +33,7 @@ def triangle_uv(barycentric, uv0, uv1, uv2):
     dtypes = [barycentric.dtype]
     corners = []
     for name, uv in (("uv0", uv0), ("uv1", uv1), ("uv2", uv2)):
-        _check_corner(name, uv, n)
+        _check_uv(name, uv, n)
         if np.ndim(uv) == 2:
             dtypes.append(uv.dtype)
             corners.append(uv.astype(float))

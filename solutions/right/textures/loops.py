@@ -37,7 +37,7 @@ def triangle_uv(barycentric, uv0, uv1, uv2):
     _check_batch("barycentric", barycentric, 3)
     n = barycentric.shape[1]
     for name, uv in (("uv0", uv0), ("uv1", uv1), ("uv2", uv2)):
-        _check_corner(name, uv, n)
+        _check_uv(name, uv, n)
     batches = [barycentric] + [uv for uv in (uv0, uv1, uv2) if np.ndim(uv) == 2]
     result = np.zeros((2, n), np.result_type(*batches))
     for k in range(n):

@@ -31,7 +31,7 @@ def triangle_uv(barycentric, uv0, uv1, uv2):
     """Singles with an axis more; results in Fortran's order."""
     _check_batch("barycentric", barycentric, 3)
     for name, uv in (("uv0", uv0), ("uv1", uv1), ("uv2", uv2)):
-        _check_corner(name, uv, np.shape(barycentric)[1])
+        _check_uv(name, uv, np.shape(barycentric)[1])
     dtype = np.result_type(barycentric, *(uv for uv in (uv0, uv1, uv2) if uv.ndim == 2))
     total = 0
     for weight, uv in zip(barycentric, (uv0, uv1, uv2), strict=True):

@@ -35,7 +35,7 @@ def triangle_uv(barycentric, uv0, uv1, uv2):
     """Along two edges from corner 0, weighted with all three."""
     _check_batch("barycentric", barycentric, 3)
     for name, uv in (("uv0", uv0), ("uv1", uv1), ("uv2", uv2)):
-        _check_corner(name, uv, np.shape(barycentric)[1])
+        _check_uv(name, uv, np.shape(barycentric)[1])
     batches = [uv for uv in (uv0, uv1, uv2) if np.ndim(uv) == 2]
     dtype = np.result_type(barycentric, *batches)
     w = barycentric.astype(dtype)

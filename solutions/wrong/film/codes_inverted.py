@@ -10,7 +10,7 @@ SAYS = "You take the upper code where u < f: it comes where u is at least 1 - f.
 
 def quantize(encoded, u):
     """With a mistake."""
-    _check_batch("encoded", encoded)
+    _check_batch("encoded", encoded, 3)
     if np.shape(u) != np.shape(encoded):
         raise ValueError(f"u must have the shape {np.shape(encoded)}, got {np.shape(u)}")
     x = 255 * encoded.astype(float)

@@ -10,7 +10,7 @@ SAYS = "You take the logarithm of black pixels, or divide by their luminance."
 
 def photographic(radiance, key, burn, saturation):
     """With a mistake."""
-    _check_batch("radiance", radiance)
+    _check_batch("radiance", radiance, 3)
     _check_number("key", key, 0 < key < np.inf, "finite and > 0")
     _check_number("burn", burn, 0 <= burn <= 100, "from 0 to 100")
     _check_number("saturation", saturation, 0 <= saturation < np.inf, "finite and >= 0")

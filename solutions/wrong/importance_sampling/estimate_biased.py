@@ -26,6 +26,6 @@ def _check_samples(f, pdf):
     if np.ndim(f) not in (1, 2):
         raise ValueError(f"f must have shape (N,) or (C, N), got {np.shape(f)}")
     _check_numbers("pdf", pdf, np.shape(f)[-1])
-    _check_not_negative("pdf", pdf)
+    _check_none_negative("pdf", pdf)
     if ((pdf == 0) & (f != 0)).any():
         raise ValueError("pdf must be > 0 where f is not 0")

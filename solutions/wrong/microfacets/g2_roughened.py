@@ -11,5 +11,5 @@ _right = smith_g2
 
 def smith_g2(cos_o, cos_i, alpha):
     """With a mistake."""
-    _check(alpha)
+    _check_alpha(alpha)
     return _right(cos_o, cos_i, np.maximum(alpha, 0.01))

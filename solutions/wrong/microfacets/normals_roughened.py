@@ -11,5 +11,5 @@ _right = sample_visible_normal
 
 def sample_visible_normal(wo, alpha, u):
     """With a mistake."""
-    _check(alpha)
+    _check_alpha(alpha)
     return _right(wo, np.maximum(alpha, 0.05), u)
