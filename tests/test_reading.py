@@ -1,12 +1,20 @@
 """Every test file is one process's to read first, and what is wrong with it is not told before its turn."""
 
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from tests.processes import ROOT
 from tests.reading import read_a_share
+
+COMPILED_WHEN_IMPORTED = re.compile(
+    r"^(from|import) course\.engine\.casters.*\b(compiled|cast_kernels|build_kernels)\b",
+    re.MULTILINE,
+)
+"""What has loops with declared types. Tests import it where they need it."""
 
 FILES = {
     "wing/conftest.py": "",
@@ -56,3 +64,15 @@ def test_one_process_alone_and_files_of_elsewhere_need_no_shares(
     monkeypatch.setenv("PYTEST_XDIST_WORKER", "gw0")
     monkeypatch.setenv("PYTEST_XDIST_WORKER_COUNT", "1")
     assert read_a_share([str(written / "test_d.py")], written / "wing") == []
+
+
+@pytest.mark.parametrize("folder", ["tests", "benchmarks"])
+def test_nothing_is_compiled_to_collect_tests(folder: str) -> None:
+    """In a fresh copy it would be in every process of a run, for ten seconds."""
+    files = sorted((ROOT / folder).rglob("*.py"))
+    assert len(files) > 50
+    assert [
+        path.relative_to(ROOT).as_posix()
+        for path in files
+        if COMPILED_WHEN_IMPORTED.search(path.read_text(encoding="utf-8"))
+    ] == []
