@@ -23,6 +23,7 @@ from tests.browser import browser
 from tests.compiling import alone, take_turns
 from tests.forms import FORMS
 from tests.once import Once, made_once, shared_folder
+from tests.reading import read_a_share
 
 __all__ = ["browser"]
 
@@ -52,10 +53,11 @@ def pytest_xdist_auto_num_workers() -> int:
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_collection() -> Generator[None, object, object]:
+def pytest_collection(session: pytest.Session) -> Generator[None, object, object]:
     """Collect without Python's collector of garbage: it takes half of the time, and 14,000 tests are none."""
     gc.disable()
     try:
+        read_a_share(session.config.args, session.config.rootpath)
         return (yield)
     finally:
         # They stay to the end, and are looked through no more.

@@ -12,7 +12,6 @@ import pytest
 from numpy.typing import NDArray
 
 from course.engine.casters.batches import BatchCaster
-from course.engine.casters.compiled import CompiledCaster
 from course.engine.core.embree import EmbreeCaster
 from course.engine.formats.meshes import transforms
 from course.engine.shapes.mesh import Mesh
@@ -21,9 +20,17 @@ from tests.lengths import fewer
 
 Array = NDArray[np.float64]
 
+
+def compiled(vertices: Any, triangles: Any) -> Any:
+    # Its loops are compiled when it is imported, which no process of a run must do to collect its tests.
+    from course.engine.casters.compiled import CompiledCaster
+
+    return CompiledCaster(vertices, triangles)
+
+
 CASTERS: dict[str, Callable[..., Any]] = {
     "embree": EmbreeCaster,
-    "numba": CompiledCaster,
+    "numba": compiled,
     "numpy": BatchCaster,
 }
 RATIOS = (10.0, 100.0, 1e3, 1e4)

@@ -625,6 +625,7 @@ def test_scenes_of_the_course_need_fewer_samples_for_the_same_error(name: str, g
 
 
 # --- Bias -----------------------------------------------------------------------------------------
+# Each of the two samplers is tried in two of the four pictures, and in a long run in all of them.
 
 
 def block_means(
@@ -640,7 +641,7 @@ def block_means(
     return np.mean(means, axis=0), np.std(means, axis=0, ddof=1) / math.sqrt(seeds)
 
 
-@pytest.mark.parametrize("sampler", ["sobol", "random"])
+@pytest.mark.parametrize("sampler", part_of(["random", "sobol"], 2))
 def test_blocks_have_the_right_brightness_where_samples_find_the_light(
     make_scene: MakeScene, sampler: str
 ) -> None:
@@ -679,7 +680,7 @@ def test_blocks_have_the_brightness_of_a_converged_picture(
     assert (np.abs(mean - truth) < 8 * np.hypot(deviation, unsure) + 1e-5).all()
 
 
-@pytest.mark.parametrize(("sampler", "darker"), [("sobol", 0.09), ("random", 0.22)])
+@pytest.mark.parametrize(("sampler", "darker"), part_of([("sobol", 0.09), ("random", 0.22)], 2))
 def test_rare_light_on_black_ground_is_darkened_by_less_than_a_third_of_the_error(
     make_scene: MakeScene, sampler: str, darker: float
 ) -> None:
