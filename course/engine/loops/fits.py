@@ -1,7 +1,7 @@
 """Which scenes the fused loop can follow: those that are made of parts that it knows; reads no loop to say so.
 
-``KNOWN`` is an allow-list. A part of another type doesn't fit, nor does one that has a field more than what is listed
-here: the scene is then rendered by passes over arrays, and no picture is another.
+``KNOWN`` and ``OF_KEYS`` are allow-lists. A part of another type doesn't fit, nor does one that has a field more than
+what is listed here: the scene is then rendered by passes over arrays, and no picture is another.
 """
 
 from collections.abc import Callable
@@ -34,7 +34,6 @@ from course.engine.terms.environments.sampling import ProductSampling
 from course.engine.terms.environments.sky import Sky
 from course.engine.terms.lights.mesh_light import MeshLight
 from course.engine.terms.lights.own_lamp import LampAccelerator
-from course.engine.terms.lights.spot_light import SpotLight
 from course.engine.terms.lights.visible_sphere import VisibleSphereLight
 from course.engine.terms.paths.bounce import PathBounce
 from course.engine.terms.paths.path_tracing import PathIntegrator
@@ -43,13 +42,10 @@ from course.engine.terms.samplers.sobol import SobolSampler
 from course.engine.terms.scattering.absorption import Absorption
 from course.engine.terms.scattering.scatter import FullScatter
 from course.engine.terms.shafts.stage import Shafts
-from course.engine.terms.surfaces.bump_maps import BumpMap, NoiseHeights, PictureHeights
-from course.engine.terms.surfaces.normal_maps import NormalMap, Relief
-from course.engine.terms.surfaces.painting import Painting
-from course.engine.terms.surfaces.perlin import PerlinNoise
 from course.engine.terms.surfaces.surface import FullSurface
 from course.engine.terms.surfaces.swept_movers import SweptMovers
-from course.engine.terms.surfaces.textures import Laid, OnMesh, OnRectangle, OnSphere, Texture
+
+TERMS = "course.engine.terms"
 
 DEEPEST = 64
 """Most bounces: the loop keeps room for the rays of each depth."""
@@ -133,24 +129,6 @@ KNOWN: dict[type, Known] = {
     FullSurface: Known(
         "accelerator painting relief", "triangles spread", "shine turned kept through"
     ),
-    Painting: Known("color_at", "row corners number"),
-    Relief: Known("maps"),
-    Laid: Known("texture places"),
-    NormalMap: Known("color places", "wraps"),
-    BumpMap: Known("heights", "height"),
-    PictureHeights: Known("picture", "step"),
-    NoiseHeights: Known("noise"),
-    PerlinNoise: Known("", "conversion"),
-    Texture: Known(
-        "",
-        "image repeat lookup nearest",
-        also=lambda t: courses_own(t.lookup) and _lies_in_rows(t.image),
-    ),
-    OnRectangle: Known(
-        "", "corner along across rectangle_uv", also=lambda p: courses_own(p.rectangle_uv)
-    ),
-    OnSphere: Known("", "sphere_uv", also=lambda p: courses_own(p.sphere_uv)),
-    OnMesh: Known("", "triangle_uv", also=lambda p: courses_own(p.triangle_uv)),
     StaticAccelerator: Known(),
     LampAccelerator: Known(),
     MovingAccelerator: Known("static movers motion"),
@@ -182,7 +160,6 @@ KNOWN: dict[type, Known] = {
             and (s.samples != "facing disk" or _owned(s.soft_shadows, POINTS_ON_SPHERES[s.samples]))
         ),
     ),
-    SpotLight: Known("", f"{_LIGHT} position normal two_sided visible blockable axis inner outer"),
     MeshLight: Known("", f"{_LIGHT} shares planes edges limit"),
     VisibleSphereLight: Known("", f"{_LIGHT} center radius limit"),
     Scatter: Known("gloss", _SCATTER),
@@ -195,7 +172,32 @@ KNOWN: dict[type, Known] = {
     ),
     Absorption: Known("", "coefficient dielectric outside camera"),
 }
-"""All that the loop knows: to add a part, its type and its fields come here."""
+"""What the loop knows: to add a part, its type and its fields come here."""
+
+OF_KEYS: dict[str, Known] = {
+    "surfaces.painting.Painting": Known("color_at", "row corners number"),
+    "surfaces.normal_maps.Relief": Known("maps"),
+    "surfaces.textures.Laid": Known("texture places"),
+    "surfaces.normal_maps.NormalMap": Known("color places", "wraps"),
+    "surfaces.bump_maps.BumpMap": Known("heights", "height"),
+    "surfaces.bump_maps.PictureHeights": Known("picture", "step"),
+    "surfaces.bump_maps.NoiseHeights": Known("noise"),
+    "surfaces.perlin.PerlinNoise": Known("", "conversion"),
+    "surfaces.textures.Texture": Known(
+        "",
+        "image repeat lookup nearest",
+        also=lambda t: courses_own(t.lookup) and _lies_in_rows(t.image),
+    ),
+    "surfaces.textures.OnRectangle": Known(
+        "", "corner along across rectangle_uv", also=lambda p: courses_own(p.rectangle_uv)
+    ),
+    "surfaces.textures.OnSphere": Known("", "sphere_uv", also=lambda p: courses_own(p.sphere_uv)),
+    "surfaces.textures.OnMesh": Known("", "triangle_uv", also=lambda p: courses_own(p.triangle_uv)),
+    "lights.spot_light.SpotLight": Known(
+        "", f"{_LIGHT} position normal two_sided visible blockable axis inner outer"
+    ),
+}
+"""The same of parts of ``course.engine.terms`` whose modules are imported for scenes alone that have them, by name."""
 
 
 def fits(tracer: Tracer) -> bool:
@@ -238,7 +240,7 @@ def makes_camera_rays(tracer: Tracer) -> bool:
 
 def _knows(part: Any) -> bool:
     kind: type = type(part)
-    known = KNOWN.get(kind)
+    known = known_part(kind)
     if known is None or not lists_all_fields(kind):
         return False
     inner = [getattr(part, name) for name in known.parts.split()]
@@ -251,10 +253,18 @@ def _is_nothing(value: Any) -> bool:
     return value is None or value is False or (isinstance(value, tuple) and not value)
 
 
+def known_part(kind: type) -> Known | None:
+    """What the loop knows of a type of part; None for nothing."""
+    within = f"{kind.__module__}.{kind.__qualname__}".removeprefix(f"{TERMS}.")
+    return KNOWN.get(kind) or OF_KEYS.get(within)
+
+
 @cache
 def lists_all_fields(kind: type) -> bool:
-    """True if ``KNOWN`` says of each field of a type what the loop does with it."""
-    known = KNOWN[kind]
+    """True if it is said of each field of a type what the loop does with it; false for types of which nothing is."""
+    known = known_part(kind)
+    if known is None:
+        return False
     listed = f"{known.parts} {known.values} {known.absent}".split()
     return not is_dataclass(kind) or {f.name for f in fields(kind) if f.init} <= set(listed)
 

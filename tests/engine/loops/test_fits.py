@@ -1,5 +1,6 @@
 """Which scenes the fused loop takes, and that numbers and camera rays as arrays give the same pictures."""
 
+import pkgutil
 from dataclasses import fields, is_dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -13,7 +14,10 @@ from course.engine.functions.effects import PROJECT, Effects
 from course.engine.loops import embree_device, numpy_loops
 from course.engine.loops.fits import (
     KNOWN,
+    OF_KEYS,
+    TERMS,
     fits,
+    known_part,
     lists_all_fields,
     makes_camera_rays,
     placed_before,
@@ -41,12 +45,16 @@ def bound(scene: Scene, **changed: Any) -> Any:
     return bind(scene, replace(scene.settings, **changed))
 
 
-@pytest.mark.parametrize("kind", KNOWN, ids=lambda kind: kind.__name__)
+ALL = [*KNOWN, *(pkgutil.resolve_name(f"{TERMS}.{name}") for name in OF_KEYS)]
+
+
+@pytest.mark.parametrize("kind", ALL, ids=lambda kind: kind.__name__)
 def test_all_fields_of_a_part_that_fits_are_listed(kind: type) -> None:
     """Who adds a field says in the list what the loop does with it; until then no scene with the part fits."""
     assert lists_all_fields(kind)
     if is_dataclass(kind):
-        known = KNOWN[kind]
+        known = known_part(kind)
+        assert known is not None
         listed = f"{known.parts} {known.values} {known.absent}".split()
         assert set(listed) <= {each.name for each in fields(kind)} | {"limit", "color"}
 
