@@ -18,8 +18,10 @@ from sitebuild.place import Place
 KEPT = PROJECT / "out" / "docs" / "rays"
 
 LATER = """<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>{title}</title></head>
-<body style="background: #808080"></body></html>
+<html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>
+body {{ background: #b0b0b0 }}
+@media (prefers-color-scheme: dark) {{ body {{ background: #505050 }} }}
+</style></head><body></body></html>
 """
 """Stands for the rays where pictures are left blank."""
 
