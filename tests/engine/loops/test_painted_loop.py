@@ -58,12 +58,12 @@ def light(name: str) -> dict[str, Any]:
 
 
 def write_files(folder: Path) -> None:
-    """A picture of 7 x 5 colours, and a mesh of two triangles whose places go below 0 and above 1."""
+    """A picture of 7 x 5 colours, and a mesh whose places go below 0 and above 1, on its second triangle mirrored."""
     colors = np.random.default_rng(4).random((3, 5, 7)).astype(np.float32)
     write_exr(folder / "map.exr", colors)
     (folder / "flag.obj").write_text(
         "v -0.6 0 0\nv 0.6 0 0\nv 0.6 1 0.3\nv -0.6 1 0\nvn 0 0 1\nvn 0.3 0 1\n"
-        "vt -0.4 0.1\nvt 1.7 0\nvt 1.2 2.3\nvt 0 1\nf 1/1/1 2/2/2 3/3/1\nf 1/1/1 3/3/1 4/4/2\n"
+        "vt -0.4 0.1\nvt 1.7 0\nvt 1.2 2.3\nvt 2 1\nf 1/1/1 2/2/2 3/3/1\nf 1/1/1 3/3/1 4/4/2\n"
     )
 
 
