@@ -112,3 +112,18 @@ def test_noise_far_from_its_origin_is_that_of_the_batches(
     fused, batches = both(scene)
     assert_same(fused, batches)
     assert fused.linear.any()
+
+
+def test_light_leaves_a_bumpy_floor_upwards_where_nothing_is_round(make_scene: MakeScene) -> None:
+    """Flat triangles have no normals at their corners; those of bumps may point a bounce into the floor."""
+    scene = make_scene(
+        integrator={"type": "path"},
+        camera={"eye": [0, 2, 3], "look_at": [0, 0, 0]},
+        sampler={"samples": 64},
+        environment={"type": "constant", "radiance": 1},
+        materials={"m": {"bump": {"noise": {"scale": 5}, "height": 1}, "color": 0.9}},
+        objects=[{"shape": "quad", "material": "m", "width": 3, "depth": 3}],
+    )
+    fused, batches = both(scene)
+    assert_same(fused, batches)
+    assert fused.linear.any()
