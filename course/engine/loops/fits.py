@@ -45,8 +45,6 @@ from course.engine.terms.shafts.stage import Shafts
 from course.engine.terms.surfaces.surface import FullSurface
 from course.engine.terms.surfaces.swept_movers import SweptMovers
 
-TERMS = "course.engine.terms"
-
 DEEPEST = 64
 """Most bounces: the loop keeps room for the rays of each depth."""
 
@@ -94,7 +92,7 @@ def _owned(functions: Functions | None, *names: str) -> bool:
 
 
 def _lies_in_rows(image: Any) -> bool:
-    """Whether a picture is read by an address."""
+    """Whether the loop can read a picture by its address."""
     return bool(image.dtype == np.float32 and image.flags.c_contiguous)
 
 
@@ -103,6 +101,7 @@ _SHOWN = "environment_depth ambient dark_inside glow emission max_depth"
 _SCATTER = "surface mirror index absorbs outside cutoff"
 _CAMERA = "origin right up forward corner step_x step_y lens"
 _LIGHT = "name color width velocity"
+_TERMS = "course.engine.terms"
 
 KNOWN: dict[type, Known] = {
     NoneType: Known(),
@@ -175,29 +174,33 @@ KNOWN: dict[type, Known] = {
 """What the loop knows: to add a part, its type and its fields come here."""
 
 OF_KEYS: dict[str, Known] = {
-    "surfaces.painting.Painting": Known("color_at", "row corners number"),
-    "surfaces.normal_maps.Relief": Known("maps"),
-    "surfaces.textures.Laid": Known("texture places"),
-    "surfaces.normal_maps.NormalMap": Known("color places", "wraps"),
-    "surfaces.bump_maps.BumpMap": Known("heights", "height"),
-    "surfaces.bump_maps.PictureHeights": Known("picture", "step"),
-    "surfaces.bump_maps.NoiseHeights": Known("noise"),
-    "surfaces.perlin.PerlinNoise": Known("", "conversion"),
-    "surfaces.textures.Texture": Known(
+    f"{_TERMS}.surfaces.painting.Painting": Known("color_at", "row corners number"),
+    f"{_TERMS}.surfaces.normal_maps.Relief": Known("maps"),
+    f"{_TERMS}.surfaces.textures.Laid": Known("texture places"),
+    f"{_TERMS}.surfaces.normal_maps.NormalMap": Known("color places", "wraps"),
+    f"{_TERMS}.surfaces.bump_maps.BumpMap": Known("heights", "height"),
+    f"{_TERMS}.surfaces.bump_maps.PictureHeights": Known("picture", "step"),
+    f"{_TERMS}.surfaces.bump_maps.NoiseHeights": Known("noise"),
+    f"{_TERMS}.surfaces.perlin.PerlinNoise": Known("", "conversion"),
+    f"{_TERMS}.surfaces.textures.Texture": Known(
         "",
         "image repeat lookup nearest",
         also=lambda t: courses_own(t.lookup) and _lies_in_rows(t.image),
     ),
-    "surfaces.textures.OnRectangle": Known(
+    f"{_TERMS}.surfaces.textures.OnRectangle": Known(
         "", "corner along across rectangle_uv", also=lambda p: courses_own(p.rectangle_uv)
     ),
-    "surfaces.textures.OnSphere": Known("", "sphere_uv", also=lambda p: courses_own(p.sphere_uv)),
-    "surfaces.textures.OnMesh": Known("", "triangle_uv", also=lambda p: courses_own(p.triangle_uv)),
-    "lights.spot_light.SpotLight": Known(
-        "", f"{_LIGHT} position normal two_sided visible blockable axis inner outer"
+    f"{_TERMS}.surfaces.textures.OnSphere": Known(
+        "", "sphere_uv", also=lambda p: courses_own(p.sphere_uv)
+    ),
+    f"{_TERMS}.surfaces.textures.OnMesh": Known(
+        "", "triangle_uv", also=lambda p: courses_own(p.triangle_uv)
+    ),
+    f"{_TERMS}.lights.spot_light.SpotLight": Known(
+        "", f"{_LIGHT} position two_sided visible blockable axis inner outer", "normal"
     ),
 }
-"""The same of parts of ``course.engine.terms`` whose modules are imported for scenes alone that have them, by name."""
+"""The same of parts whose modules are imported for scenes alone that have them, by name."""
 
 
 def fits(tracer: Tracer) -> bool:
@@ -255,8 +258,7 @@ def _is_nothing(value: Any) -> bool:
 
 def known_part(kind: type) -> Known | None:
     """What the loop knows of a type of part; None for nothing."""
-    within = f"{kind.__module__}.{kind.__qualname__}".removeprefix(f"{TERMS}.")
-    return KNOWN.get(kind) or OF_KEYS.get(within)
+    return KNOWN.get(kind) or OF_KEYS.get(f"{kind.__module__}.{kind.__qualname__}")
 
 
 @cache

@@ -112,7 +112,8 @@ def _lamp(light: Light) -> _Lamp:
         place: Any = (light.position, nowhere, nowhere)
         return _Lamp(lamp_kernels.AT_A_POINT, place, *_emitting(light))
     if type(light) is SpotLight:
-        return _Lamp(lamp_kernels.SPOT, (light.position, light.axis, nowhere))
+        falloff = np.array((*light.falloff, 0), np.float32)
+        return _Lamp(lamp_kernels.SPOT, (light.position, light.axis, falloff))
     if type(light) is RectangleLight:
         place = light.corner, light.edge_u, light.edge_v
         return _Lamp(lamp_kernels.RECTANGLE, place, *_emitting(light))
@@ -139,9 +140,6 @@ def _lights(integrator: Integrator, dimensions: Dimensions) -> lamp_kernels.Ligh
     radius = np.array([lamp.radius for lamp in lamps])
     with np.errstate(divide="ignore"):
         radii = np.stack((radius, 2 * radius, -1 / radius, radius * radius), axis=1)
-    for k, light in enumerate(lights):
-        if isinstance(light, SpotLight):
-            radii[k, :2] = light.falloff
     return lamp_kernels.Lights(
         kind=np.array([lamp.kind for lamp in lamps], np.int64),
         emitter=np.array([lamp.emitter for lamp in lamps], np.int64),

@@ -81,10 +81,10 @@ class Lights(NamedTuple):
     ----------
     kind : (L,) AT_A_POINT ... SPOT
     emitter : (L,) 0 for a light by intensity, 1 for one by radiance, 2 if both its sides shine
-    place : (L, 3, 3) float32: position, centre, corner or direction to the light; edges, or the axis of a cone
+    place : (L, 3, 3) float32: position, centre, corner or direction to the light; edges, or the axis of a cone and its
+        ``SpotLight.falloff``
     normal : (L, 3) float64 of flat emitters
-    radius : (L, 4) float32, the radius, its double, -1 / radius, and its square; 1 - cos of a cone's outer angle, and
-        over which light falls off
+    radius : (L, 4) float32, the radius, its double, -1 / radius, and its square
     color : (L, 3) float32
     limit : (L,) float32 length of the shadow rays, in lengths of the vector to the light
     velocity : (L, 3) float32; of no meaning where ``moves`` (L,) is false
@@ -121,8 +121,9 @@ def _on_sphere(call, s, radius, twice):
 
 
 @njit(**LEAN)
-def _within_cone(axis, outer, edge, s):
+def _within_cone(axis, falloff, s):
     """What of its intensity a ``SpotLight`` sends to each hit, into ``FACTOR``."""
+    outer, edge = falloff[0], falloff[1]
     for i in range(WIDTH):
         inverse = s[INVERSE + i]
         x = -s[SHADOW_TO + i] * inverse - axis[0]
@@ -242,7 +243,7 @@ def _sample(lights, k, call, s):
         s[SHADOW_TO + i], s[SHADOW_TO + _Y + i], s[SHADOW_TO + _Z + i] = x, y, z
         s[INVERSE + i], s[FACTOR + i] = np.sqrt(factor), factor
     if kind == SPOT:
-        _within_cone(lights.place[k, 1], lights.radius[k, 0], lights.radius[k, 1], s)
+        _within_cone(lights.place[k, 1], lights.place[k, 2], s)
     if not emitter:
         return
     if kind == SPHERE:

@@ -31,6 +31,7 @@ from course.engine.loops.lanes import (
 from course.engine.loops.noise_kernels import grey
 from course.engine.loops.options import APART, LEAN, njit
 from course.engine.loops.packet_kernels import WIDTH, U, V
+from course.engine.terms.surfaces.normal_maps import STEP
 
 NOISE, RECTANGLE, SPHERE, MESH = range(4)
 """What a texture is: noise, or a picture on such a shape."""
@@ -85,18 +86,26 @@ def _number_at(_context: Any, _address: Any, _place: Any) -> Any:
 
 
 @njit(**LEAN)
-def find_rows(painting, s, whole):
-    """Rows of paint of the hits into OTHERS, -1 without one, and barycentrics into WEIGHTS; whether there is any."""
+def find_rows(painting, whole):
+    """Rows of paint of the hits into OTHERS, -1 without one; whether there is any."""
     some = False
     for i in range(WIDTH):
         row = painting.row[np.uint64(whole[TRIANGLE + i])] if whole[HIT + i] else np.int32(-1)
         whole[OTHERS + i] = row
         if row >= 0:
             some = True
+    return some
+
+
+@njit(**LEAN)
+def weigh(corner, s):
+    """Barycentrics of the hits into WEIGHTS, or of places ``STEP`` nearer to corner 1 or 2; 0 for the hits' own."""
     for i in range(WIDTH):
         p, q = s[U + i], s[V + i]
         s[WEIGHTS + i], s[WEIGHTS + _Y + i], s[WEIGHTS + _Z + i] = _ONE - p - q, p, q
-    return some
+        if corner:
+            s[WEIGHTS + i] -= STEP
+            s[WEIGHTS + corner * WIDTH + i] += STEP
 
 
 @njit(**LEAN)
@@ -162,6 +171,17 @@ def _texels(place, size):
     return i, (i + 1 if i + 1 < size else np.int64(0)), share
 
 
+@njit(**LEAN)
+def _mixed(address, channel, texels, shares):
+    """A channel of four texels."""
+    return (
+        _number_at(address, texels[0] + channel) * shares[0]
+        + _number_at(address, texels[1] + channel) * shares[1]
+        + _number_at(address, texels[2] + channel) * shares[2]
+        + _number_at(address, texels[3] + channel) * shares[3]
+    )
+
+
 @njit(**APART)
 def look_up(painting, k, u, v):
     """Colours of picture k at a place; see ``Texture`` and ``texture_lookup``."""
@@ -178,19 +198,12 @@ def look_up(painting, k, u, v):
     address = painting.address[k]
     top_left, top_right = 3 * (top * width + left), 3 * (top * width + right)
     low_left, low_right = 3 * (below * width + left), 3 * (below * width + right)
-    red = _number_at(address, top_left) * first
-    green = _number_at(address, top_left + 1) * first
-    blue = _number_at(address, top_left + 2) * first
-    red += _number_at(address, top_right) * second
-    green += _number_at(address, top_right + 1) * second
-    blue += _number_at(address, top_right + 2) * second
-    red += _number_at(address, low_left) * third
-    green += _number_at(address, low_left + 1) * third
-    blue += _number_at(address, low_left + 2) * third
-    red += _number_at(address, low_right) * fourth
-    green += _number_at(address, low_right + 1) * fourth
-    blue += _number_at(address, low_right + 2) * fourth
-    return red, green, blue
+    texels, shares = (top_left, top_right, low_left, low_right), (first, second, third, fourth)
+    return (
+        _mixed(address, 0, texels, shares),
+        _mixed(address, 1, texels, shares),
+        _mixed(address, 2, texels, shares),
+    )
 
 
 @njit(**APART)
@@ -198,8 +211,9 @@ def paint(painting, call, s, whole):
     """Colours of the hits into TINT, 1 where there is no texture; see ``Painting.tint``."""
     for i in range(3 * WIDTH):
         s[TINT + i] = _ONE
-    if not find_rows(painting, s, whole):
+    if not find_rows(painting, whole):
         return
+    weigh(0, s)
     find_places(painting, PLACE, call, s, whole)
     for i in range(WIDTH):
         row = whole[OTHERS + i]

@@ -5,11 +5,18 @@ See ``course.engine.terms.surfaces.normal_maps`` and ``bump_maps``.
 
 import numpy as np
 
-from course.engine.loops.lanes import EDGES, NS, OTHERS, PLACE, SIDE, WEIGHTS
+from course.engine.loops.lanes import EDGES, NS, OTHERS, PLACE, SIDE
 from course.engine.loops.noise_kernels import grey
 from course.engine.loops.options import APART, LEAN, njit
 from course.engine.loops.packet_kernels import TO, WIDTH
-from course.engine.loops.paint_kernels import NOISE, between, find_places, find_rows, look_up
+from course.engine.loops.paint_kernels import (
+    NOISE,
+    between,
+    find_places,
+    find_rows,
+    look_up,
+    weigh,
+)
 from course.engine.loops.point_kernels import turned
 from course.engine.terms.surfaces.bump_maps import STEP as NOISE_STEP
 from course.engine.terms.surfaces.normal_maps import SHORTEST, STEP
@@ -31,12 +38,14 @@ def _unit(x, y, z):
 
 
 @njit(**LEAN)
-def _change(relief, k, moved, i, s):
-    """How a place changes from ``PLACE`` to two other rows; see ``NormalMap.changes``."""
-    u, v = s[moved + i] - s[PLACE + i], s[moved + _Y + i] - s[PLACE + _Y + i]
+def _changes(relief, k, i, s):
+    """How u and v change along both edges, in places of three rows; see ``NormalMap.changes``."""
+    u, v = s[PLACE + i], s[PLACE + _Y + i]
+    u1, v1 = s[PLACE + 2 * WIDTH + i] - u, s[PLACE + 3 * WIDTH + i] - v
+    u2, v2 = s[PLACE + 4 * WIDTH + i] - u, s[PLACE + 5 * WIDTH + i] - v
     if relief.wraps[k]:
-        u -= np.rint(u)
-    return u / STEP, v / STEP
+        u1, u2 = u1 - np.rint(u1), u2 - np.rint(u2)
+    return u1 / STEP, v1 / STEP, u2 / STEP, v2 / STEP
 
 
 @njit(**LEAN)
@@ -50,13 +59,21 @@ def _lower(relief, k, u, v, along_u, along_v):
 @njit(**LEAN)
 def _heights_of_picture(relief, k, i, s):
     """See ``PictureHeights.changes``."""
-    first_u, first_v = _change(relief, k, PLACE + 2 * WIDTH, i, s)
-    second_u, second_v = _change(relief, k, PLACE + 4 * WIDTH, i, s)
+    u1, v1, u2, v2 = _changes(relief, k, i, s)
     u, v = s[PLACE + i], s[PLACE + _Y + i]
     step_u, step_v = relief.step[k, 0], relief.step[k, 1]
     along_u = _lower(relief, k, u, v, step_u, _NOTHING) / (_TWO * step_u)
     along_v = _lower(relief, k, u, v, _NOTHING, step_v) / (_TWO * step_v)
-    return along_u * first_u + along_v * first_v, along_u * second_u + along_v * second_v
+    return along_u * u1 + along_v * v1, along_u * u2 + along_v * v2
+
+
+@njit(**LEAN)
+def _rise(carried, row, column, sx, sy, sz):
+    """How heights of a slope change from corner 0 to the one that carries its place from a column on."""
+    x = carried[row, column] - carried[row, 0]
+    y = carried[row, column + 1] - carried[row, 1]
+    z = carried[row, column + 2] - carried[row, 2]
+    return _NOTHING + sx * x + sy * y + sz * z
 
 
 @njit(**LEAN)
@@ -67,20 +84,8 @@ def _heights_of_noise(relief, k, row, i, s):
     sx = (grey(absolute, x + step, y, z) - grey(absolute, x - step, y, z)) / twice
     sy = (grey(absolute, x, y + step, z) - grey(absolute, x, y - step, z)) / twice
     sz = (grey(absolute, x, y, z + step) - grey(absolute, x, y, z - step)) / twice
-    c = relief.corners
-    first = (
-        _NOTHING
-        + sx * (c[row, 3] - c[row, 0])
-        + sy * (c[row, 4] - c[row, 1])
-        + sz * (c[row, 5] - c[row, 2])
-    )
-    second = (
-        _NOTHING
-        + sx * (c[row, 6] - c[row, 0])
-        + sy * (c[row, 7] - c[row, 1])
-        + sz * (c[row, 8] - c[row, 2])
-    )
-    return first, second
+    first = _rise(relief.corners, row, 3, sx, sy, sz)
+    return first, _rise(relief.corners, row, 6, sx, sy, sz)
 
 
 @njit(**LEAN)
@@ -104,11 +109,9 @@ def _raised(relief, k, row, nx, ny, nz, i, s):
     px, py, pz = _cross(bx, by, bz, fx, fy, fz)
     qx, qy, qz = _cross(fx, fy, fz, ax, ay, az)
     squared = max(fx * fx + fy * fy + fz * fz, _LEAST)
-    gx, gy, gz = (
-        (px * first + qx * second) / squared,
-        (py * first + qy * second) / squared,
-        (pz * first + qz * second) / squared,
-    )
+    gx = (px * first + qx * second) / squared
+    gy = (py * first + qy * second) / squared
+    gz = (pz * first + qz * second) / squared
     along = gx * nx + gy * ny + gz * nz
     x, y, z = nx - (gx - along * nx), ny - (gy - along * ny), nz - (gz - along * nz)
     length = np.sqrt(x * x + y * y + z * z)
@@ -119,14 +122,9 @@ def _raised(relief, k, row, nx, ny, nz, i, s):
 def _mapped(relief, k, nx, ny, nz, i, s):
     """See ``NormalMap.normals``."""
     red, green, blue = look_up(relief, k, s[PLACE + i], s[PLACE + _Y + i])
-    first_u, first_v = _change(relief, k, PLACE + 2 * WIDTH, i, s)
-    second_u, second_v = _change(relief, k, PLACE + 4 * WIDTH, i, s)
-    u1, v1, u2, v2 = (
-        np.float64(first_u),
-        np.float64(first_v),
-        np.float64(second_u),
-        np.float64(second_v),
-    )
+    u1, v1, u2, v2 = _changes(relief, k, i, s)
+    # In double precision, for small triangles' products of lengths underflow.
+    u1, v1, u2, v2 = np.float64(u1), np.float64(v1), np.float64(u2), np.float64(v2)
     ax, ay, az = _edge(0, i, s)
     bx, by, bz = _edge(1, i, s)
     area = u1 * v2 - u2 * v1
@@ -153,15 +151,11 @@ def _mapped(relief, k, nx, ny, nz, i, s):
 @njit(**APART)
 def carve(relief, call, s, whole):
     """Shading normals of reliefs into NS; see ``Relief.normals``."""
-    if not find_rows(relief, s, whole):
+    if not find_rows(relief, whole):
         return
-    find_places(relief, PLACE, call, s, whole)
-    for corner in range(1, 3):
-        for i in range(WIDTH):
-            s[WEIGHTS + i] -= STEP
-            s[WEIGHTS + corner * WIDTH + i] += STEP
+    for corner in (2, 1, 0):
+        weigh(corner, s)
         find_places(relief, PLACE + 2 * corner * WIDTH, call, s, whole)
-        find_rows(relief, s, whole)
     for i in range(WIDTH):
         row = whole[OTHERS + i]
         if row < 0:

@@ -91,8 +91,10 @@ class Figure:
 def _sources(module: str) -> str:
     """All that draws the figures of a module."""
     names = ("figures", "look", "numbers", "plots", "rendered", "submissions", "swatches")
-    names += ("tick_numbers",)
-    files = [*(HERE / f"{name}.py" for name in names), HERE / "looks" / f"{module}.py"]
+    files = [
+        *(HERE / f"{name}.py" for name in (*names, "tick_numbers")),
+        HERE / "looks" / f"{module}.py",
+    ]
     files += [
         GRADING / f"{name}.py"
         for name in ("pictures/rendered", "pictures/scenes", "reports/drawing")

@@ -15,7 +15,6 @@ from course.engine.loops import embree_device, numpy_loops
 from course.engine.loops.fits import (
     KNOWN,
     OF_KEYS,
-    TERMS,
     fits,
     known_part,
     lists_all_fields,
@@ -45,7 +44,7 @@ def bound(scene: Scene, **changed: Any) -> Any:
     return bind(scene, replace(scene.settings, **changed))
 
 
-ALL = [*KNOWN, *(pkgutil.resolve_name(f"{TERMS}.{name}") for name in OF_KEYS)]
+ALL = [*KNOWN, *(pkgutil.resolve_name(name) for name in OF_KEYS)]
 
 
 @pytest.mark.parametrize("kind", ALL, ids=lambda kind: kind.__name__)
