@@ -97,7 +97,6 @@ def _frames() -> dict[int, FrameType]:
 def _await(threads: Sequence[Thread], seconds: float) -> bool:
     """Whether one of them is still at work after so long."""
     end = monotonic() + seconds
-    for thread in threads:
-        if thread.ident is not None:
-            thread.join(max(end - monotonic(), 0))
+    for thread in filter(Thread.is_alive, threads):
+        thread.join(max(end - monotonic(), 0))
     return any(thread.is_alive() for thread in threads)

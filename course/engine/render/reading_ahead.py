@@ -25,7 +25,8 @@ class ReadingAhead:
 
     def close(self) -> None:
         """Wait for what was begun."""
-        if self._thread is not None:
+        # Ctrl-C may have come before it was started.
+        if self._thread is not None and self._thread.is_alive():
             self._thread.join()
 
 

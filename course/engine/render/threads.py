@@ -119,7 +119,8 @@ class ThreadedExecutor(Executor):
             run.stop = True
             if self.interrupted:
                 end_endless(threads)
-            for thread in threads:
+            # Ctrl-C may have come before all were started.
+            for thread in filter(threading.Thread.is_alive, threads):
                 thread.join(self._grace)
         if self.interrupted:
             return False

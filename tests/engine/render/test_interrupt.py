@@ -43,6 +43,30 @@ def test_every_pixel_of_an_interrupted_picture_is_right_for_its_samples(
         render(scene, spp=8192, start=picture)
 
 
+@pytest.mark.parametrize("which", [0, 1, 2])
+@pytest.mark.parametrize("begun", [False, True])
+def test_ctrl_c_while_threads_are_started(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch, which: int, begun: bool
+) -> None:
+    """It comes before one of them begins, or after, in the wait for its first step."""
+    scene, start, started = every_stage(), Thread.start, list[Thread]()
+
+    def interrupted(thread: Thread) -> None:
+        if not thread.name.startswith("tiles"):
+            return start(thread)
+        if len(started) < which or begun:
+            start(thread)
+        started.append(thread)
+        if len(started) == which + 1:
+            raise KeyboardInterrupt
+        return None
+
+    monkeypatch.setattr(Thread, "start", interrupted)
+    assert render(scene, spp=4096, threads=3).interrupted
+    assert len(started) == which + 1
+    assert not any(map(Thread.is_alive, started))
+
+
 def test_a_function_that_does_not_come_back_is_told_while_one_waits() -> None:
     begun, over = Event(), Event()
 
