@@ -105,6 +105,11 @@ class _Typed(click.Command):
     help="Write what the render cost as JSON, and why each effect was skipped that the scene doesn't need.",
 )
 @click.option(
+    "--shafts/--no-shafts",
+    default=None,
+    help="Leave out shadow rays whose answer a shaft tells: the same picture.  [default: where it saves time]",
+)
+@click.option(
     "--watch",
     is_flag=True,
     help="Render again whenever the scene or a function is saved, until Ctrl-C.",
@@ -248,6 +253,11 @@ def _render_one(
         click.echo(
             f"the time limit was over when {receipt['samples']:.0%} of the pixels had a sample; the others are black. "
             "More seconds, or a smaller --size, give a whole picture",
+            err=True,
+        )
+    if choices["shafts"] and "spared" not in receipt:
+        click.echo(
+            "--shafts: all rays were sent; shafts are for compiled loops, a million samples or more, at most 16 lights",
             err=True,
         )
     if heat_map is not None and "tests" in receipt:

@@ -21,7 +21,7 @@ def compiled(tracer: Tracer) -> Tracer:
         # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
         from course.engine.loops.fused import fused
 
-        return fused(sparing(tracer))
+        return fused(sparing(tracer, tracer.settings.shafts))
     choice = _choice(tracer)
     if choice is None:
         return tracer

@@ -334,7 +334,7 @@ def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
     return fused_kernels.Reflectances(
         np.zeros((3, materials), np.float32) if reflection is None else reflection.diffuse.rows,
         _rows(specular),
-        _NONE if reflection is None or specular is None else reflection.exponent.rows,
+        _NONE if reflection is None or specular is None else _exponents(reflection, specular),
         _NO_MASK if shaded is None else shaded,
         _rows(integrator.ambient),
         np.empty(0, np.bool_) if dark is None else dark,
@@ -344,6 +344,12 @@ def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
         absorption.coefficient.rows if isinstance(absorption, Absorption) else _NO_COLUMNS,
         absorption.dielectric if isinstance(absorption, Absorption) else np.empty(0, np.bool_),
     )
+
+
+def _exponents(reflection: BlinnPhong, specular: Lookup) -> Floats32:
+    """Those of highlights; 0 for materials without one."""
+    shiny = (specular.rows != 0).any(axis=0)
+    return np.where(shiny, reflection.exponent.rows, np.float32(0))
 
 
 def _coherent_depth(integrator: Integrator) -> int:

@@ -56,7 +56,13 @@ from course.engine.loops.lanes import (
     D,
     P,
 )
-from course.engine.loops.number_kernels import ask_for_next, find_pixels, look
+from course.engine.loops.number_kernels import (
+    alike,
+    ask_for_next,
+    consecutive,
+    find_pixels,
+    look,
+)
 from course.engine.loops.occlusion_kernels import keep, shift, unshift
 from course.engine.loops.options import LEAN, njit
 from course.engine.loops.packet_kernels import (
@@ -326,8 +332,28 @@ def _intersect(scene, of_camera, coherent, count, timed, scratch, counts):
 
 
 @njit(**LEAN)
+def _spread(table, k, count, row, s):
+    """One row of a table into the columns of all lanes."""
+    for c in range(count):
+        value = table[k, c]
+        for i in range(WIDTH):
+            s[row + c * WIDTH + i] = value
+
+
+@njit(**LEAN)
 def _gather(scene, s, whole):
     """Materials of the hits, and the rows of their triangles, into the columns of PLANE, EDGES and CORNERS."""
+    k = np.uint64(whole[TRIANGLE])
+    if alike(TRIANGLE, whole):
+        material, smooth = scene.material[k], not scene.planes[k, 7] > 0
+        for i in range(WIDTH):
+            whole[MATERIAL + i] = material
+        _spread(scene.planes, k, 8, PLANE, s)
+        _spread(scene.edges, k, 7, EDGES, s)
+        if not smooth or len(scene.corner_normals) == 0:
+            return False
+        _spread(scene.corner_normals, k, 9, CORNERS, s)
+        return True
     smooth = False
     for i in range(WIDTH):
         k = np.uint64(whole[TRIANGLE + i])
@@ -449,42 +475,53 @@ def _absorb(materials, outside, eye, of_camera, call, s, whole):
 @njit(**LEAN)
 def _reflect(materials, painted, s, whole):
     """What the hits send to the viewer into ``DIFFUSE``; see ``BlinnPhong.reflected`` and ``Integrator.shade``."""
-    dark_sides, ambient = len(materials.dark_inside) > 0, materials.ambient.shape[1] > 0
+    dark_sides, one = len(materials.dark_inside) > 0, alike(MATERIAL, whole)
     for i in range(WIDTH):
         dark = dark_sides and materials.dark_inside[np.uint64(whole[MATERIAL + i])]
         s[A + i] = _NOTHING if dark and s[SIDE + i] < 0 else _ONE
         s[B + i] = _ONE if s[SIDE + i] > 0 and whole[LIT + i] != 0 else _NOTHING
     for c in range(3):
         row = DIFFUSE + c * WIDTH
-        _weigh(materials.diffuse[c], s, whole, row)
+        _of_material(materials.diffuse[c], one, s, whole)
+        for i in range(WIDTH):
+            s[row + i] *= s[C + i]
         if painted:
             for i in range(WIDTH):
                 s[row + i] *= s[TINT + c * WIDTH + i]
         if len(materials.exponent):
-            _weigh(materials.specular[c], s, whole, SPECULAR + c * WIDTH)
+            _of_material(materials.specular[c], one, s, whole)
             for i in range(WIDTH):
+                s[SPECULAR + c * WIDTH + i] *= s[C + i]
                 s[row + i] += s[SPECULAR + c * WIDTH + i]
-        if ambient:
+        if materials.ambient.shape[1]:
+            _of_material(materials.ambient[c], one, s, whole)
             for i in range(WIDTH):
-                light = materials.ambient[c, np.uint64(whole[MATERIAL + i])]
-                light *= s[TINT + c * WIDTH + i] if painted else _ONE
+                light = s[C + i] * (s[TINT + c * WIDTH + i] if painted else _ONE)
                 s[row + i] += light if s[A + i] > 0 else _NOTHING
         if materials.glow.shape[1]:
+            _of_material(materials.glow[c], one, s, whole)
             for i in range(WIDTH):
-                s[row + i] += materials.glow[c, np.uint64(whole[MATERIAL + i])]
+                s[row + i] += s[C + i]
         if materials.emission.shape[1]:
+            _of_material(materials.emission[c], one, s, whole)
             for i in range(WIDTH):
-                s[row + i] += materials.emission[c, np.uint64(whole[MATERIAL + i])] * s[B + i]
+                s[row + i] += s[C + i] * s[B + i]
         if materials.objects.shape[1]:
+            _of_material(materials.objects[c], one, s, whole)
             for i in range(WIDTH):
-                light = materials.objects[c, np.uint64(whole[MATERIAL + i])]
-                s[row + i] += light if whole[LIT + i] != 0 else _NOTHING
+                s[row + i] += s[C + i] if whole[LIT + i] != 0 else _NOTHING
 
 
 @njit(**LEAN)
-def _weigh(reflectance, s, whole, row):
+def _of_material(values, one, s, whole):
+    """A value of each hit's material, into C; ``one`` tells that all have the same."""
+    if one:
+        value = values[np.uint64(whole[MATERIAL])]
+        for i in range(WIDTH):
+            s[C + i] = value
+        return
     for i in range(WIDTH):
-        s[row + i] *= reflectance[np.uint64(whole[MATERIAL + i])]
+        s[C + i] = values[np.uint64(whole[MATERIAL + i])]
 
 
 @njit(**LEAN)
@@ -569,6 +606,16 @@ def _add(film, brought, first, missed, count, s, whole):
     Paths may have several rays, if ``brought`` has room: then what these bring waits until ``_add_list``.
     """
     integers = brought.view(np.int32)
+    if len(brought) == 0 and count == WIDTH and consecutive(PATH, whole):
+        begin = np.uint64(whole[PATH])
+        for i in range(WIDTH):
+            brings = (whole[HIT + i] == 0) == missed and not (missed and whole[LIT + i] == 0)
+            s[A + i] = _ONE if brings else _NOTHING
+        for c in range(3):
+            radiance = film.radiance[c, begin : begin + np.uint64(WIDTH)]
+            for i in range(WIDTH):
+                radiance[i] += s[DIFFUSE + c * WIDTH + i] if s[A + i] > 0 else _NOTHING
+        return
     for i in range(count):
         if (whole[HIT + i] == 0) != missed or (missed and whole[LIT + i] == 0):
             continue

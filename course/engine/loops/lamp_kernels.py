@@ -321,17 +321,17 @@ def _short_of(normal, s):
 
 
 @njit(**LEAN)
-def _highlight(exponent, specular, color, call, s, whole):
-    """Add a light's highlights to ``SPECULAR``; see ``blinn_phong_highlight``."""
+def _highlight(exponent, color, call, s, whole):
+    """Add a light's highlights to ``SPECULAR``; see ``blinn_phong_highlight``. Matt materials have the exponent 0."""
     some = False
     for i in range(WIDTH):
-        s[C + i] = _ONE
-        if not s[IRRADIANCE + i] > 0:
-            continue
-        m = whole[MATERIAL + i]
-        if not (specular[0, m] != 0 or specular[1, m] != 0 or specular[2, m] != 0):
-            continue
-        some = True
+        s[D + i] = exponent[np.uint64(whole[MATERIAL + i])]
+        shines = (s[IRRADIANCE + i] > 0) & (s[D + i] > 0)
+        whole[OTHERS + i] = -1 if shines else 0
+        some |= shines
+    if not some:
+        return
+    for i in range(WIDTH):
         scale = s[INVERSE + i]
         x = s[POINT + i] * scale - s[TO + i]
         y = s[POINT + _Y + i] * scale - s[TO + _Y + i]
@@ -339,20 +339,16 @@ def _highlight(exponent, specular, color, call, s, whole):
         squared = _NOTHING + x * x + y * y + z * z
         cosine = _NOTHING + x * s[NS + i] + y * s[NS + _Y + i] + z * s[NS + _Z + i]
         cosine /= np.sqrt(max(squared, _LEAST_HALF))
-        s[C + i] = min(max(cosine, _LEAST_COSINE), _ONE)
-    if not some:
-        return
-    numpy_kernels.log(call, s[C : C + WIDTH], s[D : D + WIDTH])
+        cosine = min(max(cosine, _LEAST_COSINE), _ONE)
+        s[C + i] = cosine if whole[OTHERS + i] else _ONE
+    numpy_kernels.log(call, s[C : C + WIDTH], s[E : E + WIDTH])
     for i in range(WIDTH):
-        s[D + i] *= exponent[whole[MATERIAL + i]]
+        s[D + i] *= s[E + i]
     numpy_kernels.exp(call, s[D : D + WIDTH], s[E : E + WIDTH])
-    for i in range(WIDTH):
-        if s[IRRADIANCE + i] > 0:
-            m = whole[MATERIAL + i]
-            if specular[0, m] != 0 or specular[1, m] != 0 or specular[2, m] != 0:
-                light = s[E + i] * s[IRRADIANCE + i]
-                for c in range(3):
-                    s[SPECULAR + c * WIDTH + i] += light * color[c]
+    for c in range(3):
+        for i in range(WIDTH):
+            light = s[E + i] * s[IRRADIANCE + i] * color[c]
+            s[SPECULAR + c * WIDTH + i] += light if whole[OTHERS + i] else _NOTHING
 
 
 @njit(**LEAN)
@@ -445,5 +441,5 @@ def illuminate(lights, k, scene, shafts, materials, timed, scratch, counts):
             s[DIFFUSE + c * WIDTH + i] += s[IRRADIANCE + i] * color
     if len(materials.exponent):
         color = lights.color[k]
-        _highlight(materials.exponent, materials.specular, color, call, s, whole)
+        _highlight(materials.exponent, color, call, s, whole)
     return candidates

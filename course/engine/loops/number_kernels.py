@@ -154,11 +154,20 @@ def _draw_next(points, first, scramble, s, row):
 
 
 @njit(**LEAN)
-def _follow(whole):
-    """True if the samples of a packet's paths follow each other."""
+def alike(row, whole):
+    """True if a row of integers has one value."""
+    same = True
+    for i in range(1, WIDTH):
+        same &= whole[row + i] == whole[row]
+    return same
+
+
+@njit(**LEAN)
+def consecutive(row, whole):
+    """True if the integers of a row follow each other."""
     follow = True
     for i in range(1, WIDTH):
-        follow &= whole[SAMPLE + i] == whole[SAMPLE] + i
+        follow &= whole[row + i] == whole[row] + i
     return follow
 
 
@@ -180,7 +189,7 @@ def draw(numbers, pair, width, same, s, whole, row):
     line = 2 * pair if pair < 2 else 0
     pixel = np.int32(-1)
     order, one, two = np.uint64(0), np.uint32(0), np.uint32(0)
-    if same and _follow(whole):
+    if same and consecutive(SAMPLE, whole):
         key = numbers.pixels[whole[PIXEL]]
         order = np.uint64(hashed(key, salts[pair, 0]) % orders)
         first = np.uint64(numbers.first + whole[SAMPLE])

@@ -395,7 +395,7 @@ def _lines(line: Line, depth: int = 0) -> list[str]:
 
 
 def _shafts(shadows: Sequence[Segment]) -> str:
-    """Which of the shadow rays to a light a render sends."""
+    """Which of the shadow rays to a light must be sent; ``course render --shafts`` leaves out the others."""
     counts = Counter(one.shaft for one in shadows)
     why = {
         "clear": "with nothing between their cell and all of the light",
@@ -407,8 +407,8 @@ def _shafts(shadows: Sequence[Segment]) -> str:
             "shafts: something is between each ray's cell and a part of the light, so all are sent"
         )
     sent = len(shadows) - counts["clear"] - counts["cut off"]
-    rest = f"; {sent} {_some(sent, 'is', 'are')}" if sent else ""
-    return f"shafts: a render doesn't send {_listed(spared)}{rest}"
+    rest = f"; {sent} must be" if sent else ""
+    return f"shafts: {_listed(spared)} need not be sent{rest}"
 
 
 def _by(segments: Iterable[Segment], key: Callable[[Segment], str]) -> dict[str, list[Segment]]:

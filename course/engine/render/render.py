@@ -49,6 +49,7 @@ def render(
     compiled: bool | None = None,
     address: str | None = None,
     denoise: bool | None = None,
+    shafts: bool | None = None,
 ) -> Picture:
     """Render a scene; what isn't given is as the scene file says.
 
@@ -79,6 +80,8 @@ def render(
     address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
         .[dask]``) and decide how many threads; None means this machine
     denoise : whether a PNG shows means over neighbours, a preview whose means are biased; None means as the scene says
+    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells; the picture is the same, and the
+        receipt counts them; None means where that saves time
 
     Raises
     ------
@@ -93,6 +96,7 @@ def render(
     settings = _asked(
         scene.settings, spp, size, sampler, seed, error, denoise, ends_early=time_limit is not None
     )
+    settings = replace(settings, shafts=shafts)
     job = Job(scene, settings, time_limit, start)
     mode = _mode(settings, time_limit)
     _check(job, mode, threads, address)

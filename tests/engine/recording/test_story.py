@@ -330,4 +330,6 @@ def test_shafts_are_told_of_scenes_alone_whose_loop_looks_at_them(
         lights=[{"type": "sphere", "center": [0, 5, 0], "radius": 0.5, "intensity": 100}],
     )
     told = " ".join(texts(pixel(scene, 256, 256).tree))
-    assert ("shafts: a render doesn't send 64 with nothing" in told) == (available() and not facets)
+    assert (
+        "shafts: 64 with nothing between their cell and all of the light need not be sent" in told
+    ) == (available() and not facets)

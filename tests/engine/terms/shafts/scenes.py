@@ -22,6 +22,14 @@ from course.engine.terms.shafts.walk import CLEAR, CUT_OFF
 
 MakeScene = Callable[..., Scene]
 
+FLOOR: dict[str, Any] = {
+    "camera": {"eye": [0, 3, 6], "look_at": [0, 0, 0], "vertical_fov": 30},
+    "film": {"width": 40, "height": 30},
+    "sampler": {"samples": 16},
+    "materials": {"floor": {}},
+}
+FLAT = {"shape": "quad", "material": "floor", "width": 40, "depth": 40}
+
 
 def with_shafts(scene: Scene, pixels: float | None = None) -> Tracer:
     """The batches' tracer, with shafts however small the picture is."""

@@ -9,6 +9,8 @@ import pytest
 from course.engine.render.binding import bind
 from course.engine.terms.shafts.stage import sparing
 from tests.engine.terms.shafts.scenes import (
+    FLAT,
+    FLOOR,
     MakeScene,
     random_scene,
     rendered,
@@ -43,15 +45,6 @@ def test_pictures_keep_their_bits(seed: int, make_scene: MakeScene) -> None:
     told = counters.spared["clear"] + counters.spared["cut off"]
     assert told > 0
     assert counters.rays["shadow"] + told == every.rays["shadow"]
-
-
-FLOOR: dict[str, Any] = {
-    "camera": {"eye": [0, 3, 6], "look_at": [0, 0, 0], "vertical_fov": 30},
-    "film": {"width": 40, "height": 30},
-    "sampler": {"samples": 16},
-    "materials": {"floor": {}},
-}
-FLAT = {"shape": "quad", "material": "floor", "width": 40, "depth": 40}
 
 
 @pytest.mark.parametrize("below", [False, True], ids=["from the front", "from behind"])
@@ -138,6 +131,6 @@ def test_small_pictures_and_those_of_many_triangles_have_none(
     ball = {"shape": "sphere", "material": "floor", "radius": 0.8, "segments": segments}
     scene = make_scene(**FLOOR | {"lights": [lamp], "objects": [FLAT, ball]})
     tracer = bind(scene, replace(scene.settings, width=width, height=300))
-    direct = sparing(tracer).integrator.direct
+    direct = sparing(tracer, wanted=True).integrator.direct
     assert direct is not None
     assert (direct.spare is not None) == has
