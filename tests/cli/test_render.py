@@ -26,14 +26,14 @@ def test_what_options_leave_open_is_left_to_the_scene(run: Run, engine: Engine) 
     (options,) = engine.rendered
     assert set(options) == {
         *("spp", "size", "sampler", "seed", "threads", "time_limit"),
-        *("error", "progress", "address", "denoise"),
+        *("error", "progress", "address", "denoise", "shafts"),
     }
     assert set(options.values()) == {None}
 
 
 def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) -> None:
     options = (
-        "--spp 9 --size 64x48 --sampler jittered --seed 7 --threads 3 --time-limit 2.5 --error 0.25"
+        "--spp 9 --size 64x48 --sampler jittered --seed 7 --threads 3 --time-limit 2.5 --error 0.25 --no-shafts"
     )
     result = run("render", "box.yaml", "-o", "a.EXR", "--effects", "assignments", *options.split())
     assert result.exit_code == 0
@@ -51,9 +51,17 @@ def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) ->
             "progress": None,
             "address": None,
             "denoise": None,
+            "shafts": False,
         }
     ]
     assert files(tmp_path) == {"a.EXR"}
+
+
+def test_shafts_that_were_asked_for_and_spared_nothing_are_told(run: Run, engine: Engine) -> None:
+    told = run("render", "box.yaml", "--shafts").output
+    assert "--shafts: all rays were sent" in told
+    assert engine.rendered[-1]["shafts"] is True
+    assert "shafts" not in run("render", "box.yaml").output
 
 
 def test_the_address_of_a_cluster_reaches_the_renderer(run: Run, engine: Engine) -> None:

@@ -682,11 +682,12 @@ def follow(
     for packet in (0, SHADOW, ABOVE):
         part = s[packet : packet + PACKET]
         begin(part, part.view(np.int32))
-    for c in range(3):
-        for i in range(n):
-            radiance[c, i] = _NOTHING
     packets = 0
     for first_path in range(0, n, chunk):
+        # Chunk by chunk, so that it is in the nearest cache when light is added to it.
+        for c in range(3):
+            for i in range(first_path, min(first_path + chunk, n)):
+                radiance[c, i] = _NOTHING
         pile[0, 0], pile[0, 1], pile[0, 2], pile[0, 3] = 0, 0, min(chunk, n - first_path), 0
         lists = 1
         while lists:
