@@ -66,6 +66,7 @@ ONCE = {
     "course release --out student.zip": "docs/guides/instructors.md",
     "course references": "docs/guides/instructors.md",
     "course status": "README.md",
+    "course grade SUBMISSIONS/ --out graded": "README.md",
     "course grade SUBMISSIONS/ --out graded --seed 20261": "docs/guides/instructors.md",
     "course grade SUBMISSIONS/ --out graded --engine dask --address tcp://host:8786": (
         "docs/guides/instructors.md"
@@ -162,7 +163,7 @@ class Page:
             try:
                 if line in seen:
                     done = "as above"
-                elif ONCE.get(line, self.name) != self.name and block.kind == "command":
+                elif ONCE.get(line, self.name) != self.name and not _speaks_of(block):
                     done = f"as in {ONCE[line]}"
                 elif other := self._like(line):
                     done = f"like in {other}"
@@ -198,10 +199,7 @@ class Page:
             case "command":
                 return self._line(block.text)
             case "inline":
-                # Within a sentence the bare name of a command speaks of it; nobody is told to type it.
-                words = block.text.split()
-                bare = words[0] == "course" and words[-1] in (*COMMANDS, "gradescope")
-                return self._line(f"{block.text} --help" if bare else block.text)
+                return self._line(f"{block.text} --help" if _speaks_of(block) else block.text)
             case "python":
                 return self._python(block.text)
             case "yaml" | "text" if name := _other_file(block):
@@ -400,6 +398,14 @@ def _other_file(block: Block) -> str:
     """The name under which a page has a file saved that is no scene; a command below reads it."""
     name = re.search(r"Save this as `([\w.]+)`", block.before)
     return name[1] if name and "camera:" not in block.text else ""
+
+
+def _speaks_of(block: Block) -> bool:
+    """Whether it is a command's bare name within a sentence: nobody is told to type it."""
+    words = block.text.split()
+    return (
+        block.kind == "inline" and words[0] == "course" and words[-1] in (*COMMANDS, "gradescope")
+    )
 
 
 def _without_comment(line: str) -> str:
