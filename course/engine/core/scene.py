@@ -57,7 +57,6 @@ class Settings:
     samples : samples per pixel
     max_depth : largest number of bounces after the camera ray
     cutoff : bounced rays are dropped unless their largest throughput channel is above this
-    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells; None for where that saves time
     """
 
     width: int
@@ -67,7 +66,6 @@ class Settings:
     seed: int
     max_depth: int
     cutoff: float
-    shafts: bool | None = None
 
 
 def plan_dimensions(

@@ -15,13 +15,16 @@ def has_loops(tracer: Tracer) -> bool:
     return fits(tracer) or compiled_choice(choice) is not choice
 
 
-def compiled(tracer: Tracer) -> Tracer:
-    """The tracer with compiled loops; of a scene that doesn't fit them, with the walk down its tree of lights alone."""
+def compiled(tracer: Tracer, shafts: bool | None = None) -> Tracer:
+    """The tracer with compiled loops; of a scene that doesn't fit them, with the walk down its tree of lights alone.
+
+    ``shafts``: see ``sparing``
+    """
     if fits(tracer):
         # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
         from course.engine.loops.fused import fused
 
-        return fused(sparing(tracer, tracer.settings.shafts))
+        return fused(sparing(tracer, shafts))
     choice = _choice(tracer)
     if choice is None:
         return tracer

@@ -66,7 +66,7 @@ def bind(
         return tracer
     from course.engine.loops import engine
 
-    return engine.compiled(tracer)
+    return engine.compiled(tracer, settings.shafts)
 
 
 def _reconstruction(scene: Scene, settings: SceneSettings, bound: Bound) -> Reconstruction:

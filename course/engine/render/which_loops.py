@@ -110,7 +110,7 @@ def choose_loops(
         return Loops(tracer, film=False)
     from course.engine.render import background_compile as loops
 
-    make = partial(compiled, tracer)
+    make = partial(compiled, tracer, settings.shafts)
     if wanted or not may_change_over(settings):
         if wanted is None:
             closed.enter_context(loops.compiling_told())
