@@ -347,9 +347,9 @@ def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
 
 
 def _exponents(reflection: BlinnPhong, specular: Lookup) -> Floats32:
-    """Those of highlights; 0 for materials without one."""
+    """Those of highlights; -1 for materials without one."""
     shiny = (specular.rows != 0).any(axis=0)
-    return np.where(shiny, reflection.exponent.rows, np.float32(0))
+    return np.where(shiny, reflection.exponent.rows, np.float32(-1))
 
 
 def _coherent_depth(integrator: Integrator) -> int:

@@ -322,11 +322,11 @@ def _short_of(normal, s):
 
 @njit(**LEAN)
 def _highlight(exponent, color, call, s, whole):
-    """Add a light's highlights to ``SPECULAR``; see ``blinn_phong_highlight``. Matt materials have the exponent 0."""
+    """Add a light's highlights to ``SPECULAR``; see ``blinn_phong_highlight``. Matt materials have the exponent -1."""
     some = False
     for i in range(WIDTH):
         s[D + i] = exponent[np.uint64(whole[MATERIAL + i])]
-        shines = (s[IRRADIANCE + i] > 0) & (s[D + i] > 0)
+        shines = (s[IRRADIANCE + i] > 0) & (s[D + i] >= 0)
         whole[OTHERS + i] = -1 if shines else 0
         some |= shines
     if not some:
