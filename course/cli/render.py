@@ -105,9 +105,9 @@ class _Typed(click.Command):
     help="Write what the render cost as JSON, and why each effect was skipped that the scene doesn't need.",
 )
 @click.option(
-    "--shafts/--no-shafts",
-    default=None,
-    help="Leave out shadow rays whose answer a shaft tells: the same picture.  [default: where it saves time]",
+    "--shafts",
+    is_flag=True,
+    help="Leave out shadow rays whose answer a shaft tells: an experiment, which docs/performance.md tells of.",
 )
 @click.option(
     "--watch",

@@ -28,11 +28,14 @@ def test_what_options_leave_open_is_left_to_the_scene(run: Run, engine: Engine) 
         *("spp", "size", "sampler", "seed", "threads", "time_limit"),
         *("error", "progress", "address", "denoise", "shafts"),
     }
+    assert not options.pop("shafts")
     assert set(options.values()) == {None}
 
 
 def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) -> None:
-    options = "--spp 9 --size 64x48 --sampler jittered --seed 7 --threads 3 --time-limit 2.5 --error 0.25 --no-shafts"
+    options = (
+        "--spp 9 --size 64x48 --sampler jittered --seed 7 --threads 3 --time-limit 2.5 --error 0.25"
+    )
     result = run("render", "box.yaml", "-o", "a.EXR", "--effects", "assignments", *options.split())
     assert result.exit_code == 0
     assert engine.loaded[0][1] == {"effects": "assignments"}

@@ -15,16 +15,16 @@ def has_loops(tracer: Tracer) -> bool:
     return fits(tracer) or compiled_choice(choice) is not choice
 
 
-def compiled(tracer: Tracer, shafts: bool | None = None) -> Tracer:
+def compiled(tracer: Tracer, shafts: bool = False) -> Tracer:
     """The tracer with compiled loops; of a scene that doesn't fit them, with the walk down its tree of lights alone.
 
-    ``shafts``: see ``sparing``
+    ``shafts``: whether the loop leaves out shadow rays whose answer a shaft tells
     """
     if fits(tracer):
         # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
         from course.engine.loops.fused import fused
 
-        return fused(sparing(tracer, shafts))
+        return fused(sparing(tracer) if shafts else tracer)
     choice = _choice(tracer)
     if choice is None:
         return tracer

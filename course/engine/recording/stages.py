@@ -135,7 +135,7 @@ def recorded(tracer: Tracer, recorder: Recorder, shafts: bool = False) -> Tracer
         recorder.asking = asking
         seen: dict[str, Any] = same_fields(integrator.surface) | {"accelerator": asking}
         # All rays are sent.
-        direct = sparing(tracer, wanted=True).integrator.direct if shafts else None
+        direct = sparing(tracer).integrator.direct if shafts else None
         recorder.shafts = None if direct is None else direct.spare
         seen = {"surface": type(integrator.surface)(**seen), "spare": None}
         seen["sky"] = _sky(integrator.direct.sky, recorder, seen["surface"])

@@ -49,7 +49,7 @@ def render(
     compiled: bool | None = None,
     address: str | None = None,
     denoise: bool | None = None,
-    shafts: bool | None = None,
+    shafts: bool = False,
 ) -> Picture:
     """Render a scene; what isn't given is as the scene file says.
 
@@ -80,8 +80,8 @@ def render(
     address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
         .[dask]``) and decide how many threads; None means this machine
     denoise : whether a PNG shows means over neighbours, a preview whose means are biased; None means as the scene says
-    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells; the picture is the same, and the
-        receipt counts them; None means where that saves time
+    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells, which the receipt counts: an
+        experiment, see "Rays that need not be sent" in docs/performance.md
 
     Raises
     ------

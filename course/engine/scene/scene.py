@@ -35,14 +35,14 @@ class SceneSettings(core.Settings):
     display : how a PNG shows the picture
     subdivision : rays through the corners of cells, which are divided by contrast; None takes samples in pixels
     denoise : a PNG shows means over neighbours; None shows the picture as rendered
-    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells; None for where that saves time
+    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells
     """
 
     error: float | None = None
     display: Display = SRGB
     subdivision: Subdivision | None = None
     denoise: Denoising | None = None
-    shafts: bool | None = None
+    shafts: bool = False
 
 
 @dataclass(frozen=True)

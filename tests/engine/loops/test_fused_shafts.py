@@ -57,21 +57,15 @@ def test_what_one_form_has_found_the_other_reads(make_scene: MakeScene) -> None:
     assert np.count_nonzero(_shafts(tracer).made.known) == found > 0
 
 
-@pytest.mark.parametrize("lamps", [1, 8])
-def test_rays_are_spared_where_it_pays_or_where_it_is_asked_for(
-    lamps: int, make_scene: MakeScene
-) -> None:
-    lamp = {"type": "sphere", "radius": 0.2, "intensity": 9}
-    lights = [lamp | {"center": [0.5 * k, 4, 0]} for k in range(lamps)]
+def test_rays_are_spared_where_it_is_asked_for(make_scene: MakeScene) -> None:
+    lamp = {"type": "sphere", "center": [0, 4, 0], "radius": 0.2, "intensity": 9}
     film = {"width": 512, "height": 512}
-    scene = make_scene(**FLOOR | {"lights": lights, "film": film, "objects": [FLAT]})
+    scene = make_scene(**FLOOR | {"lights": [lamp], "film": film, "objects": [FLAT]})
     given = {"spp": 4, "compiled": True}
-    default, asked, refused = (render(scene, **given, shafts=way) for way in (None, True, False))
+    asked, default = render(scene, **given, shafts=True), render(scene, **given)
     assert np.array_equal(default.linear, asked.linear)
-    assert np.array_equal(default.linear, refused.linear)
-    assert refused.receipt.spared is None
-    assert default.receipt.spared == (asked.receipt.spared if lamps == 8 else None)
+    assert default.receipt.spared is None
     assert asked.receipt.spared is not None
     left_out = sum(asked.receipt.spared.values())
     assert left_out > 0
-    assert asked.receipt.rays["shadow"] + left_out == refused.receipt.rays["shadow"]
+    assert asked.receipt.rays["shadow"] + left_out == default.receipt.rays["shadow"]

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from course.engine.casters.choice import chosen
 from course.engine.core.accelerator import StaticAccelerator
 from course.engine.core.camera import Camera
 from course.engine.core.counters import Counters
@@ -47,10 +46,6 @@ MULTIPLIER = np.uint64(0x9E3779B97F4A7C15)
 
 MOST_LIGHTS, MOST_OBJECTS, MOST_TRIANGLES = 16, 2048, 1_000_000
 """Scenes with more of them have no shafts: these would take too long to make, or too much memory."""
-
-FEWEST_LIGHTS = 8
-"""From so many on shafts save time: a hit's cell is found once for all of them. Beside Embree, that is. With 12 lights
-in rooms apart a render took 0.92 times the processor time, with one to five 0.99 to 1.2 times."""
 
 WORTH = 1_000_000
 """Samples of a picture from which on it has shafts: fewer rays cost less than the boxes around triangles."""
@@ -268,12 +263,9 @@ def _some(candidates: Candidates, which: Indices) -> Candidates:
     return Candidates(columns, columns, None, *some)
 
 
-def sparing(tracer: Tracer, wanted: bool | None) -> Tracer:
-    """The tracer, with shafts where its picture is large enough, and where they are wanted; None: where they pay."""
-    settings, direct = tracer.settings, tracer.integrator.direct
-    pays = direct is not None and (len(direct.lights) >= FEWEST_LIGHTS or chosen() == "numba")
-    if not (pays if wanted is None else wanted):
-        return tracer
+def sparing(tracer: Tracer) -> Tracer:
+    """The tracer, with shafts where its picture is large enough."""
+    settings = tracer.settings
     samples = settings.samples if tracer.costs is None else min(settings.samples, EXPECTED)
     pixels = settings.width * settings.height
     return replace(tracer, integrator=with_shafts(tracer.integrator, pixels, samples))

@@ -131,6 +131,6 @@ def test_small_pictures_and_those_of_many_triangles_have_none(
     ball = {"shape": "sphere", "material": "floor", "radius": 0.8, "segments": segments}
     scene = make_scene(**FLOOR | {"lights": [lamp], "objects": [FLAT, ball]})
     tracer = bind(scene, replace(scene.settings, width=width, height=300))
-    direct = sparing(tracer, wanted=True).integrator.direct
+    direct = sparing(tracer).integrator.direct
     assert direct is not None
     assert (direct.spare is not None) == has
