@@ -107,7 +107,7 @@ class _Typed(click.Command):
 @click.option(
     "--shafts",
     is_flag=True,
-    help="Leave out shadow rays whose answer a shaft tells: an experiment, which docs/performance.md tells of.",
+    help="Leave out shadow rays whose answer a shaft tells: the same picture, seldom sooner.",
 )
 @click.option(
     "--watch",

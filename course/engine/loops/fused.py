@@ -287,7 +287,7 @@ def _shafts(integrator: Integrator) -> shaft_kernels.FusedShafts:
         np.array((*lamp.middle, *lamp.half.ravel(), lamp.radius, lamp.limit, lamp.far), np.float64)
         for lamp in tables.lamps
     ]
-    slots = [tables.slots.get(light.name, -1) for light in direct.lights]
+    slots = [tables.slots.get(id(light), -1) for light in direct.lights]
     moves = integrator.motion is not None
     return shaft_kernels.FusedShafts(
         *(*tables.cells, *tables.boxes, np.array(slots, np.int64)),

@@ -80,8 +80,8 @@ def render(
     address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
         .[dask]``) and decide how many threads; None means this machine
     denoise : whether a PNG shows means over neighbours, a preview whose means are biased; None means as the scene says
-    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells, which the receipt counts: an
-        experiment, see "Rays that need not be sent" in docs/performance.md
+    shafts : whether compiled loops leave out shadow rays whose answer a shaft tells: the same picture, seldom sooner;
+        the receipt counts them
 
     Raises
     ------

@@ -71,7 +71,7 @@ class ShaftTables(NamedTuple):
 
     Attributes
     ----------
-    slots : light's name -> its row
+    slots : ``id`` of a light -> its row; lights that stand for the cells of one lamp have one name
     lamps : of each row
     known : (rows, n) uint64, n a power of two: cells' keys times 4, plus what their shafts are; 0 for nothing yet.
         Threads write to it without a lock: each place is written at once, and whoever writes there has the same answer
@@ -79,7 +79,7 @@ class ShaftTables(NamedTuple):
 
     cells: Cells
     boxes: Boxes
-    slots: dict[str, int]
+    slots: dict[int, int]
     lamps: list[LampRegion]
     known: NDArray[np.uint64]
 
@@ -113,15 +113,15 @@ class Shafts:
     def tables(self) -> ShaftTables | None:
         """Made when they are first asked for; None where no light or no triangle has shafts."""
         triangles, accelerator = self.surface.triangles, self.surface.accelerator
-        found = {light.name: lamp_of(light) for light in self.lights}
-        lamps = {name: lamp for name, lamp in found.items() if lamp is not None}
+        found = {id(light): lamp_of(light) for light in self.lights}
+        lamps = {light: lamp for light, lamp in found.items() if lamp is not None}
         boxes = boxes_of(accelerator, triangles) if lamps else None
         if boxes is None:
             return None
         static = accelerator.static if isinstance(accelerator, MovingAccelerator) else accelerator
         assert isinstance(static, StaticAccelerator)
         cells = cells_of(boxes, triangles, len(static.triangles), self.camera, self.pixels)
-        slots = {name: number for number, name in enumerate(lamps)}
+        slots = {light: number for number, light in enumerate(lamps)}
         known = np.zeros((len(lamps), self.places), np.uint64)
         return ShaftTables(cells, boxes, slots, list(lamps.values()), known)
 
@@ -158,9 +158,9 @@ class Shafts:
     ) -> NDArray[np.int8] | None:
         """UNKNOWN, CLEAR, MIXED or CUT_OFF, (k,), for the shafts of candidates' rays; None if the light has none."""
         tables = self.made
-        if tables is None or light.name not in tables.slots:
+        if tables is None or id(light) not in tables.slots:
             return None
-        row = tables.slots[light.name]
+        row = tables.slots[id(light)]
         of, lamp = candidates.of, tables.lamps[row]
         p, to_light = of(hits.p), candidates.to_light
         # ---- a ray must leave its surface, towards where the light's points may lie, while the shutter is open

@@ -36,6 +36,18 @@ def test_random_scenes_have_shafts_of_both_kinds(make_scene: MakeScene) -> None:
     assert sum(each.cut for each in told) > 100
 
 
+def test_cells_of_a_lamp_that_have_one_name_have_a_shaft_each(make_scene: MakeScene) -> None:
+    lamp = {"type": "rectangle", "corner": [-2, 3, -2], "edge_u": [4, 0, 0], "edge_v": [0, 0, 4]}
+    lamp |= {"intensity": 9, "samples": "grid 3"}
+    roof = {"shape": "quad", "material": "floor", "width": 2, "depth": 2}
+    roof |= {"transform": [{"translate": [0.5, 1.5, 0]}]}
+    scene = make_scene(**FLOOR | {"lights": [lamp], "objects": [FLAT, roof]})
+    told = sent(scene, pixels=2.0)
+    assert told.clear > 1000
+    assert told.cut > 1000
+    assert told.wrong == 0
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_pictures_keep_their_bits(seed: int, make_scene: MakeScene) -> None:
     tracer = with_shafts(random_scene(make_scene, seed), pixels=2.0)

@@ -13,7 +13,6 @@ from benchmarks.attacks.running import NOT_HELD, Outcome, chosen, forged, outcom
 from benchmarks.attacks.stage import Stage
 from benchmarks.attacks.walls import OPEN, WALLS
 from course.school.grading.worker.sandbox import sandbox
-from tests.lengths import LONG
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or os.uname().machine != "x86_64",
@@ -46,11 +45,9 @@ def test_a_wall_holds(user: str, wall: str) -> None:
 
 @pytest.mark.skipif(os.name == "nt" or os.geteuid() != 0, reason="would attack one's own account")
 def test_the_attacks_do_harm_where_there_is_no_wall() -> None:
-    # Whatever does harm costs its worker; the long run tries them all.
-    every = 1 if LONG else 6
-    harmful = [one.name for one in tried("another", OPEN, every) if not one.held]
+    harmful = [one.name for one in tried("another", OPEN, 3) if not one.held]
     # The others need root, or are there to use a worker up.
-    assert len(harmful) >= 66 // every
+    assert len(harmful) >= 20
 
 
 @pytest.fixture(scope="module")
