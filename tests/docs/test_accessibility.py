@@ -145,7 +145,8 @@ def test_every_page_opens_on_both_screens_and_axe_finds_nothing(
         # What a page says of the parts that were taken out of it is not counted.
         page.goto("about:blank")
         trouble.clear()
-    assert pictures > 20
+    # Most stand on the front page.
+    assert pictures > (50 if part == 0 else 20)
     context.close()
 
 

@@ -600,6 +600,12 @@ def _charge(film, price, mask, count, whole):
 
 
 @njit(**LEAN)
+def _brings(missed, i, whole):
+    """True for the rays that hit something, or for those that missed and are lit."""
+    return (whole[HIT + i] == 0) & (whole[LIT + i] != 0) if missed else whole[HIT + i] != 0
+
+
+@njit(**LEAN)
 def _add(film, brought, first, missed, count, s, whole):
     """Add what a packet's rays have brought to their paths: those that hit something, or those that missed.
 
@@ -609,15 +615,14 @@ def _add(film, brought, first, missed, count, s, whole):
     if len(brought) == 0 and count == WIDTH and consecutive(PATH, whole):
         begin = np.uint64(whole[PATH])
         for i in range(WIDTH):
-            brings = (whole[HIT + i] == 0) == missed and not (missed and whole[LIT + i] == 0)
-            s[A + i] = _ONE if brings else _NOTHING
+            s[A + i] = _ONE if _brings(missed, i, whole) else _NOTHING
         for c in range(3):
             radiance = film.radiance[c, begin : begin + np.uint64(WIDTH)]
             for i in range(WIDTH):
                 radiance[i] += s[DIFFUSE + c * WIDTH + i] if s[A + i] > 0 else _NOTHING
         return
     for i in range(count):
-        if (whole[HIT + i] == 0) != missed or (missed and whole[LIT + i] == 0):
+        if not _brings(missed, i, whole):
             continue
         for c in range(3):
             light = s[DIFFUSE + c * WIDTH + i]
