@@ -287,7 +287,11 @@ def _shafts(integrator: Integrator) -> shaft_kernels.FusedShafts:
         np.array((*lamp.middle, *lamp.half.ravel(), lamp.radius, lamp.limit, lamp.far), np.float64)
         for lamp in tables.lamps
     ]
-    slots = [tables.slots.get(id(light), -1) for light in direct.lights]
+    # A function of others may place points outside the light, of which its shafts tell nothing.
+    placed = {id(light) for light in placed_before(integrator)}
+    slots = [
+        -1 if id(light) in placed else tables.slots.get(id(light), -1) for light in direct.lights
+    ]
     moves = integrator.motion is not None
     return shaft_kernels.FusedShafts(
         *(*tables.cells, *tables.boxes, np.array(slots, np.int64)),

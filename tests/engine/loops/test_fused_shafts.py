@@ -1,13 +1,15 @@
 """The fused loop looks at shafts as the batches do: the same rays aren't sent, and the picture is the same."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import render
+from course import load_scene, render
 from course.engine.core.direct import DirectLight
 from course.engine.core.tracer import Tracer
+from course.engine.functions.effects import PROJECT
 from course.engine.loops import embree_device
 from tests.engine.terms.shafts.scenes import (
     FLAT,
@@ -69,3 +71,29 @@ def test_rays_are_spared_where_it_is_asked_for(make_scene: MakeScene) -> None:
     left_out = sum(asked.receipt.spared.values())
     assert left_out > 0
     assert asked.receipt.rays["shadow"] + left_out == default.receipt.rays["shadow"]
+
+
+OUTSIDE = """
+import numpy as np
+
+def point_on_sphere(center, radius, u):
+    place = np.add(center, [0, -1, 0] * np.asarray(radius) * 8).astype(np.float32)
+    return np.repeat(place[:, None], u.shape[1], axis=1)
+"""
+
+
+def test_rays_to_points_that_others_have_placed_are_sent(
+    make_scene: MakeScene, tmp_path: Path
+) -> None:
+    (tmp_path / "soft_shadows.py").write_text(OUTSIDE, encoding="utf-8")
+    lamp = {"type": "sphere", "center": [0, 4, 0], "radius": 0.2, "intensity": 9}
+    roof = {"shape": "quad", "material": "floor", "width": 1, "depth": 1}
+    roof |= {"transform": [{"translate": [0, 3, 0]}]}
+    film = {"width": 512, "height": 512, "filter": "box"}
+    plain = make_scene(**FLOOR | {"lights": [lamp], "film": film, "objects": [FLAT, roof]})
+    (tmp_path / "supersampling.py").write_text(
+        (PROJECT / "solutions" / "supersampling.py").read_text(encoding="utf-8"), encoding="utf-8"
+    )
+    scene = load_scene(plain.path, effects=tmp_path)
+    spared = render(scene, spp=4, compiled=True, shafts=True)
+    assert np.array_equal(spared.linear, render(scene, spp=4, compiled=False).linear)
