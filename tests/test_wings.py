@@ -25,7 +25,7 @@ def test_each_folder_of_tests_belongs_to_one_wing() -> None:
     )
 
 
-BUDGET = {"engine": 34_680, "school": 22_500}
+BUDGET = {"engine": 34_680, "school": 22_505}
 """Lines that carry code. To raise one, say in the commit what a user gets for it."""
 
 

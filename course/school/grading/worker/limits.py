@@ -137,8 +137,10 @@ class WorkerBudget:
         with self._lock:
             self._watched[pid] = end, []
             if self._thread is None:
-                self._thread = threading.Thread(target=self._look_after, daemon=True)
-                self._thread.start()
+                thread = threading.Thread(target=self._look_after, daemon=True)
+                thread.start()
+                # After it has begun: Ctrl-C may come before, and the next one begins anew.
+                self._thread = thread
 
     def forget(self, pid: int) -> None:
         """It has ended."""

@@ -132,9 +132,12 @@ class Process:
             with contextlib.suppress(OSError):
                 process.stdin.close()
         os.close(self._replies)
-        if self._drain is not None:
-            # A daemon that escaped would keep the pipe open; nobody waits for it.
+        # A daemon that escaped would keep the pipe open; nobody waits for it.
+        if self._drain is not None and self._drain.is_alive():
             self._drain.join(0.5)
+        elif process.stdout is not None:
+            # Ctrl-C may have come before the thread was started.
+            process.stdout.close()
 
     def write(self, message: bytes, deadline: float) -> None:
         """Send a message.
